@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/ids.hpp>
+#include <talus/core/types.hpp>
+
+namespace talus {
+
+/// A place where two shapes touch, nearly touch or overlap.
+///
+/// Signs, for all of talus: `gap` > 0 apart, < 0 overlapping; `normal` points from B towards A; so
+/// the relative velocity u = velocity of A minus velocity of B has u_n > 0 when separating, and an
+/// impulse with r_n > 0 pushes A along n (and B along -n).
+template <int Dim>
+requires SpaceDimension<Dim>
+struct ContactPoint {
+    Vector<Dim> point;   ///< one place for both bodies, half-way between the two surfaces [m]
+    Vector<Dim> normal;  ///< unit, world axes, from B towards A
+    double gap;          ///< signed distance along the normal [m]
+    FeatureId feature;   ///< touching features, of A first
+};
+
+}  // namespace talus

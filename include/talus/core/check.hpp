@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <source_location>
+#include <stdexcept>
+#include <string>
+
+namespace talus {
+
+/// Broken precondition: an error of the calling program. Thrown by TALUS_CHECK.
+class precondition_error : public std::logic_error {
+  public:
+    using std::logic_error::logic_error;
+};
+
+/// Bad input from outside (a file, a mesh, a negative mass). The message names the item, its value
+/// and the accepted range. Thrown before any state changes.
+class input_error : public std::invalid_argument {
+  public:
+    using std::invalid_argument::invalid_argument;
+};
+
+namespace detail {
+
+[[noreturn]] inline void fail_check(const char* expression, const char* sentence,
+                                    std::source_location where) {
+    throw precondition_error(std::string(where.file_name()) + ":" + std::to_string(where.line()) +
+                             ": " + sentence + " [" + expression + "]");
+}
+
+}  // namespace detail
+}  // namespace talus
+
+/// Precondition, checked in builds without NDEBUG: throws talus::precondition_error with the
+/// expression, the sentence and the location.
+#ifdef NDEBUG
+#define TALUS_CHECK(condition, sentence) static_cast<void>(0)
+#else
+#define TALUS_CHECK(condition, sentence) \
+    ((condition)                         \
+         ? static_cast<void>(0)          \
+         : ::talus::detail::fail_check(#condition, sentence, std::source_location::current()))
+#endif

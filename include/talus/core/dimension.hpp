@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+namespace talus {
+
+/// The dimensions of space that talus knows: the plane and ordinary space.
+template <int Dim>
+concept SpaceDimension = Dim == 2 || Dim == 3;
+
+/// Degrees of freedom of a rotation: 1 in the plane, 3 in space.
+template <int Dim>
+requires SpaceDimension<Dim>
+inline constexpr int rotation_dof = Dim == 2 ? 1 : 3;
+
+/// Degrees of freedom of a rigid body: 3 in the plane, 6 in space.
+template <int Dim>
+requires SpaceDimension<Dim>
+inline constexpr int twist_dof = Dim + rotation_dof<Dim>;
+
+/// A dimension as a type, for tests and dispatch: `Dim<2>`, `Dim<3>`.
+template <int D>
+requires SpaceDimension<D>
+struct DimensionTag {
+    static constexpr int value = D;
+};
+
+}  // namespace talus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/check.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace talus {
+
+namespace detail {
+
+inline std::string text_of(double x) {
+    char buffer[40];
+    const int n = std::snprintf(buffer, sizeof buffer, "%.9g", x);
+    return std::string(buffer, static_cast<std::size_t>(n));
+}
+
+[[noreturn]] inline void reject(std::string_view item, double value, std::string_view range) {
+    throw input_error(std::string(item) + " is " + text_of(value) + ", but must be " +
+                      std::string(range));
+}
+
+}  // namespace detail
+
+/// Returns `value`; throws input_error naming `item` unless it is finite and positive.
+inline double require_positive(std::string_view item, double value) {
+    if (!(std::isfinite(value) && value > 0.0)) detail::reject(item, value, "finite and positive");
+    return value;
+}
+
+/// Returns `value`; throws input_error naming `item` unless it is finite and not negative.
+inline double require_non_negative(std::string_view item, double value) {
+    if (!(std::isfinite(value) && value >= 0.0))
+        detail::reject(item, value, "finite and not negative");
+    return value;
+}
+
+/// Returns `value`; throws input_error naming `item` unless it lies in [low, high].
+inline double require_in(std::string_view item, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+        detail::reject(item, value,
+                       "in [" + detail::text_of(low) + ", " + detail::text_of(high) + "]");
+    return value;
+}
+
+/// Returns `value` (a vector or a matrix); throws input_error naming `item` and the first entry
+/// that is not finite.
+template <class Array>
+const Array& require_finite(std::string_view item, const Array& value) {
+    for (decltype(value.size()) i = 0; i < value.size(); ++i)
+        if (!std::isfinite(value.data()[i]))
+            detail::reject(std::string(item) + "[" + std::to_string(i) + "]", value.data()[i],
+                           "finite");
+    return value;
+}
+
+}  // namespace talus

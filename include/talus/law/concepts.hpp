@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/law/local_problem.hpp>
+
+#include <concepts>
+
+namespace talus {
+
+/// The relation that a contact of gap <= 0 imposes between its relative velocity u [m/s] and its
+/// impulse r [N s], both in the local frame, normal first. Models are of prospective type
+/// [Moreau, (6)(7)]: u_n >= 0 always, and u_n > 0 implies r = 0 (a bilateral constraint, which is
+/// no contact, excepted).
+///
+/// `natural_map(u, r, rho)` is a map whose fixed points in r are the impulses that obey the law
+/// with u, for any rho > 0 [kg]: the law's one measure of error. `solve` answers the one-contact
+/// problem; when that has several solutions (the Painleve range) it returns one of them, the same
+/// for the same input, and when it has none (W r + b cannot meet the law) the r it returns shows it
+/// in the natural map. It never fails otherwise and never returns a NaN.
+template <class L, int Dim>
+concept ContactLaw = std::copyable<L> &&
+    requires(const L& law, const LocalProblem<Dim>& p, const Vector<Dim>& u, const Vector<Dim>& r,
+             double rho) {
+    { law.solve(p, r) } -> std::convertible_to<Vector<Dim>>;             // started from r [N s]
+    { law.natural_map(u, r, rho) } -> std::convertible_to<Vector<Dim>>;  // = r iff obeyed [N s]
+};
+
+/// A law that looks at a weighted mean of the velocities at begin and end of the step: in terms of
+/// the end velocity it is the law without restitution with `restitution_shift(u_begin)` added to
+/// the velocity, which assembly adds to b once per step.
+template <class L, int Dim>
+concept RestitutionLaw = ContactLaw<L, Dim> && requires(const L& law, const Vector<Dim>& u_begin) {
+    { law.restitution_shift(u_begin) } -> std::convertible_to<Vector<Dim>>;  // [m/s]
+};
+
+}  // namespace talus

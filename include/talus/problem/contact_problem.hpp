@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/cross.hpp>
+#include <talus/core/ids.hpp>
+#include <talus/law/concepts.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace talus {
+
+/// The linear map H^T from body velocities to relative velocities at the contacts, and its
+/// transpose from impulses to wrench impulses, for contacts that join two rigid bodies:
+///
+///   u_c = F_c ( v_a + w_a x arm_a  -  v_b - w_b x arm_b )
+///
+/// with the rows of F_c the contact's axes. Body velocities are world-axis twists at the
+/// configuration of the step's midpoint. One array per field; contacts in the order of their keys.
+template <int Dim>
+requires SpaceDimension<Dim>
+struct ContactJacobian {
+    std::vector<BodyIndex> a;               ///< body that the normal points to
+    std::vector<BodyIndex> b;               ///< the other one
+    std::vector<Matrix<Dim>> frame;         ///< rows (n, t...)
+    std::vector<Vector<Dim>> arm_a, arm_b;  ///< from the centres to the contact point [m]
+
+    std::size_t contact_count() const { return a.size(); }
+    void resize(std::size_t n) {
+        a.resize(n);
+        b.resize(n);
+        frame.resize(n);
+        arm_a.resize(n);
+        arm_b.resize(n);
+    }
+};
+
+/// Inverse of the block-diagonal mass matrix in world axes. Obstacles have zeros: impulses do not
+/// move them.
+template <int Dim>
+requires SpaceDimension<Dim>
+struct InverseMass {
+    std::vector<double> linear;               ///< 1/m [1/kg]
+    std::vector<AngularMatrix<Dim>> angular;  ///< inverse inertia tensor, world [1/(kg m^2)]
+
+    std::size_t body_count() const { return linear.size(); }
+    void resize(std::size_t n) {
+        linear.resize(n);
+        angular.resize(n);
+    }
+};
+
+/// The whole input of a contact solver:  u = W r + free_velocity,  W = H^T M^-1 H,  and for every
+/// contact its law between u and r. Knows nothing of shapes, time or step size.
+template <int Dim, ContactLaw<Dim> Law>
+struct ContactProblem {
+    InverseMass<Dim> inverse_mass;
+    ContactJacobian<Dim> jacobian;
+    /// u_free: the relative velocity that the step would end with if all impulses were zero, the
+    /// prescribed motion of obstacles (the term W of the paper) and restitution shifts included
+    /// [m/s].
+    std::vector<Vector<Dim>> free_velocity;
+    std::vector<Law> laws;
+
+    std::size_t contact_count() const { return free_velocity.size(); }
+};
+
+}  // namespace talus

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/types.hpp>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace talus {
+
+/// A rotation of space: a unit complex number in the plane, a unit quaternion in space.
+/// Supplied: identity, exp, log, product, inverse, action on vectors, matrix, normalized.
+template <int Dim>
+requires SpaceDimension<Dim>
+class Rotation;
+
+/// Rotation of the plane, stored as (cos, sin).
+template <>
+class Rotation<2> {
+  public:
+    Rotation() = default;
+    explicit Rotation(double angle) : c_(std::cos(angle)), s_(std::sin(angle)) {}  ///< [rad]
+
+    static Rotation identity() { return {}; }
+    /// Rotation reached in unit time at constant `spin` [rad].
+    static Rotation exp(const AngularVector<2>& spin) { return Rotation(spin[0]); }
+    /// Rotation with the given matrix (assumed orthonormal, determinant 1).
+    static Rotation from_matrix(const Matrix<2>& m) { return Rotation(m(0, 0), m(1, 0)); }
+
+    double angle() const { return std::atan2(s_, c_); }  ///< in (-pi, pi] [rad]
+    AngularVector<2> log() const { return AngularVector<2>(angle()); }
+    Rotation inverse() const { return Rotation(c_, -s_); }
+    Matrix<2> matrix() const { return (Matrix<2>() << c_, -s_, s_, c_).finished(); }
+
+    Vector<2> operator*(const Vector<2>& v) const {
+        return {c_ * v[0] - s_ * v[1], s_ * v[0] + c_ * v[1]};
+    }
+    /// Inverse rotation of a vector, without forming the inverse.
+    Vector<2> transpose_times(const Vector<2>& v) const {
+        return {c_ * v[0] + s_ * v[1], c_ * v[1] - s_ * v[0]};
+    }
+    /// Spin in world axes from spin in body axes: the same number in the plane.
+    AngularVector<2> spin_world(const AngularVector<2>& body) const { return body; }
+    AngularVector<2> spin_body(const AngularVector<2>& world) const { return world; }
+
+    Rotation operator*(const Rotation& o) const {
+        return Rotation(c_ * o.c_ - s_ * o.s_, s_ * o.c_ + c_ * o.s_);
+    }
+    Rotation normalized() const {
+        const double n = std::sqrt(c_ * c_ + s_ * s_);
+        return Rotation(c_ / n, s_ / n);
+    }
+
+  private:
+    Rotation(double c, double s) : c_(c), s_(s) {}
+    double c_ = 1.0;
+    double s_ = 0.0;
+};
+
+/// Rotation of space, stored as a unit quaternion.
+template <>
+class Rotation<3> {
+  public:
+    Rotation() : q_(Eigen::Quaterniond::Identity()) {}
+    explicit Rotation(const Eigen::Quaterniond& q) : q_(q.normalized()) {}
+
+    static Rotation identity() { return {}; }
+    /// Rotation reached in unit time at constant `spin`: turns by |spin| [rad] about it.
+    static Rotation exp(const AngularVector<3>& spin) {
+        const double angle = spin.norm();
+        // sin(x/2)/x, by its series where the quotient loses digits: the next term is below 1e-17.
+        const double s = angle > 1e-4 ? std::sin(0.5 * angle) / angle : 0.5 - angle * angle / 48.0;
+        Rotation r;
+        r.q_.w() = std::cos(0.5 * angle);
+        r.q_.vec() = s * spin;
+        return r;
+    }
+    /// Rotation with the given matrix (assumed orthonormal, determinant 1).
+    static Rotation from_matrix(const Matrix<3>& m) { return Rotation(Eigen::Quaterniond(m)); }
+
+    /// The shortest spin whose `exp` is this rotation [rad].
+    AngularVector<3> log() const {
+        const double sign = q_.w() < 0.0 ? -1.0 : 1.0;
+        const double s = q_.vec().norm();
+        const double half = std::atan2(s, sign * q_.w());
+        return (s > 0.0 ? 2.0 * half / s : 2.0) * sign * q_.vec();
+    }
+    const Eigen::Quaterniond& quaternion() const { return q_; }
+    Rotation inverse() const {
+        Rotation r;
+        r.q_ = q_.conjugate();
+        return r;
+    }
+    Matrix<3> matrix() const { return q_.toRotationMatrix(); }
+
+    Vector<3> operator*(const Vector<3>& v) const { return q_._transformVector(v); }
+    /// Inverse rotation of a vector, without forming the inverse.
+    Vector<3> transpose_times(const Vector<3>& v) const {
+        return q_.conjugate()._transformVector(v);
+    }
+    /// Spin in world axes from spin in body axes, and back.
+    AngularVector<3> spin_world(const AngularVector<3>& body) const { return *this * body; }
+    AngularVector<3> spin_body(const AngularVector<3>& world) const {
+        return transpose_times(world);
+    }
+
+    Rotation operator*(const Rotation& o) const {
+        Rotation r;
+        r.q_ = q_ * o.q_;
+        return r;
+    }
+    Rotation normalized() const { return Rotation(q_); }
+
+  private:
+    Eigen::Quaterniond q_;
+};
+
+}  // namespace talus
