@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus {
@@ -47,6 +48,8 @@ class Rotation<2> {
     Rotation operator*(const Rotation& o) const {
         return Rotation(c_ * o.c_ - s_ * o.s_, s_ * o.c_ + c_ * o.s_);
     }
+    /// Distance to another rotation: a bound of |R v - R' v| over unit vectors v [-].
+    double distance(const Rotation& o) const { return std::hypot(c_ - o.c_, s_ - o.s_); }
     Rotation normalized() const {
         const double n = std::sqrt(c_ * c_ + s_ * s_);
         return Rotation(c_ / n, s_ / n);
@@ -109,6 +112,11 @@ class Rotation<3> {
         Rotation r;
         r.q_ = q_ * o.q_;
         return r;
+    }
+    /// Distance to another rotation: a bound of |R v - R' v| over unit vectors v [-].
+    double distance(const Rotation& o) const {
+        return 2.0 * std::sqrt(std::min((q_.coeffs() - o.q_.coeffs()).squaredNorm(),
+                                        (q_.coeffs() + o.q_.coeffs()).squaredNorm()));
     }
     Rotation normalized() const { return Rotation(q_); }
 

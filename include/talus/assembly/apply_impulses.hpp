@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/problem/contact_problem.hpp>
+#include <talus/spatial/twist.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace talus {
+
+/// Adds M^-1 H r to world-axis twists: second line of [Moreau] (9), u_end = u_free + A^-1 sum G^T
+/// r. Contacts are taken in their order, so the sum has the same bits whatever solver found r.
+template <int Dim>
+void apply_impulses(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
+                    std::span<const Vector<Dim>> r, std::span<Twist<Dim>> twists) {
+    for (std::size_t c = 0; c < r.size(); ++c) {
+        const auto a = static_cast<std::size_t>(jacobian.a[c]);
+        const auto b = static_cast<std::size_t>(jacobian.b[c]);
+        const Vector<Dim> impulse_world = jacobian.frame[c].transpose() * r[c];
+        twists[a].linear += inverse_mass.linear[a] * impulse_world;
+        twists[a].angular +=
+            inverse_mass.angular[a] * moment<Dim>(jacobian.arm_a[c], impulse_world);
+        twists[b].linear -= inverse_mass.linear[b] * impulse_world;
+        twists[b].angular -=
+            inverse_mass.angular[b] * moment<Dim>(jacobian.arm_b[c], impulse_world);
+    }
+}
+
+}  // namespace talus

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/collision/contact_set.hpp>
+#include <talus/dynamics/bodies.hpp>
+#include <talus/problem/contact_problem.hpp>
+#include <talus/spatial/local_frame.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace talus {
+
+/// Fills H for the contacts of a configuration: axes and lever arms. O(contacts).
+template <int Dim>
+void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodies,
+                       ContactJacobian<Dim>& jacobian) {
+    jacobian.resize(contacts.count());
+    for (std::size_t c = 0; c < contacts.count(); ++c) {
+        const auto [a, b, feature] = contacts.key[c];
+        jacobian.a[c] = a;
+        jacobian.b[c] = b;
+        jacobian.frame[c] = local_frame<Dim>(contacts.normal[c]);
+        jacobian.arm_a[c] = contacts.point[c] - bodies.position[static_cast<std::size_t>(a)];
+        jacobian.arm_b[c] = contacts.point[c] - bodies.position[static_cast<std::size_t>(b)];
+    }
+}
+
+/// Fills M^-1 for a configuration, in world axes. O(bodies).
+template <int Dim>
+void assemble_inverse_mass(const Bodies<Dim>& bodies, InverseMass<Dim>& inverse_mass) {
+    inverse_mass.resize(bodies.count());
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+        inverse_mass.linear[i] = bodies.inverse_mass[i];
+        inverse_mass.angular[i] = inverse_inertia_world<Dim>(bodies, i);
+    }
+}
+
+/// Relative velocity of contact c when the bodies have the given world-axis twists:
+/// U_c = G_c u + W_c [m/s], local axes ([Moreau] equation (4)).
+template <int Dim>
+Vector<Dim> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t c,
+                              std::span<const Twist<Dim>> twists) {
+    const Twist<Dim>& a = twists[static_cast<std::size_t>(jacobian.a[c])];
+    const Twist<Dim>& b = twists[static_cast<std::size_t>(jacobian.b[c])];
+    return jacobian.frame[c] * (a.at(jacobian.arm_a[c]) - b.at(jacobian.arm_b[c]));
+}
+
+}  // namespace talus

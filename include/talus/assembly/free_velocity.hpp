@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/forces.hpp>
+#include <talus/spatial/gyroscopic.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace talus {
+
+/// Change of the body-axis spin over a step of size h [s] by the gyroscopic term alone [rad/s].
+template <int Dim>
+AngularVector<Dim> gyroscopic_change(const Bodies<Dim>& bodies, std::size_t i, double h,
+                                     Gyroscopic gyroscopic) {
+    const AngularVector<Dim>& inverse = bodies.inverse_inertia[i];
+    if ((inverse.array() == inverse[0]).all() || !(inverse.minCoeff() > 0.0))
+        return AngularVector<Dim>::Zero();
+    const AngularVector<Dim> moments = bodies.inertia(i);
+    if (gyroscopic == Gyroscopic::momentum_preserving)
+        return torque_free_spin<Dim>(bodies.spin[i], moments, h) - bodies.spin[i];
+    return h * inverse.cwiseProduct(gyroscopic_torque<Dim>(bodies.spin[i], moments));
+}
+
+/// The velocity the step would end with without contact impulses, first line of [Moreau] (9):
+/// u_free = u_begin + h A^-1 F(t_mid, q_mid, u_begin), as world-axis twist of body i, for gravity
+/// [m/s^2], an applied wrench and the gyroscopic change of spin (body axes). `bodies` holds q_mid
+/// and u_begin. Obstacles keep their twist.
+template <int Dim>
+Twist<Dim> free_velocity(const Bodies<Dim>& bodies, std::size_t i, double h,
+                         const Vector<Dim>& gravity, const Wrench<Dim>& applied,
+                         const AngularVector<Dim>& gyroscopic) {
+    Twist<Dim> free = bodies.twist(i);
+    if (bodies.is_obstacle(i)) return free;
+    const Rotation<Dim>& rotation = bodies.rotation[i];
+    const AngularVector<Dim> torque = rotation.spin_body(applied.torque);
+    free.linear += h * (gravity + bodies.inverse_mass[i] * applied.force);
+    free.angular +=
+        rotation.spin_world(gyroscopic + h * bodies.inverse_inertia[i].cwiseProduct(torque));
+    return free;
+}
+
+}  // namespace talus

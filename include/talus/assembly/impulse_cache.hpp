@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/collision/contact_set.hpp>
+#include <talus/problem/contact_problem.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// Carries impulses from step to step by contact key: the warm start of [Moreau] section 2.1,
+/// "whenever the same contact was already in effect". Impulses are kept in world axes, so that the
+/// choice of tangents does not matter. Keys are sorted, so recall and store cost O(contacts).
+template <int Dim>
+requires SpaceDimension<Dim>
+class ImpulseCache {
+  public:
+    /// Fills r (local axes) with the impulses of the contacts that were there before, times `scale`
+    /// (the ratio of step sizes); zero for new contacts. Returns how many were recalled.
+    std::size_t recall(const ContactSet<Dim>& contacts, const ContactJacobian<Dim>& jacobian,
+                       std::span<Vector<Dim>> r, double scale = 1.0) const {
+        std::size_t old = 0;
+        std::size_t recalled = 0;
+        for (std::size_t c = 0; c < contacts.count(); ++c) {
+            while (old < key_.size() && key_[old] < contacts.key[c]) ++old;
+            if (old < key_.size() && key_[old] == contacts.key[c]) {
+                r[c] = scale * (jacobian.frame[c] * impulse_[old]);
+                ++recalled;
+            } else {
+                r[c].setZero();
+            }
+        }
+        return recalled;
+    }
+
+    /// Replaces the memory by the impulses r (local axes) of these contacts.
+    void store(const ContactSet<Dim>& contacts, const ContactJacobian<Dim>& jacobian,
+               std::span<const Vector<Dim>> r) {
+        key_.assign(contacts.key.begin(), contacts.key.end());
+        impulse_.resize(r.size());
+        for (std::size_t c = 0; c < r.size(); ++c)
+            impulse_[c] = jacobian.frame[c].transpose() * r[c];
+    }
+
+    void clear() {
+        key_.clear();
+        impulse_.clear();
+    }
+    std::size_t size() const { return key_.size(); }
+    std::span<const ContactKey> keys() const { return key_; }
+    std::span<const Vector<Dim>> impulses() const { return impulse_; }  ///< world axes [N s]
+
+  private:
+    std::vector<ContactKey> key_;
+    std::vector<Vector<Dim>> impulse_;
+};
+
+}  // namespace talus

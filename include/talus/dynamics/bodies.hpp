@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/ids.hpp>
+#include <talus/core/input.hpp>
+#include <talus/spatial/inertia.hpp>
+#include <talus/spatial/pose.hpp>
+#include <talus/spatial/twist.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace talus {
+
+/// All bodies of a system, one array per field, indexed by BodyIndex. Each body's frame stands at
+/// its mass centre along its principal axes, so that the inertia matrix A of the paper is diagonal
+/// and constant ([Moreau] section 1.2). Obstacles are bodies that impulses do not move: their
+/// inverse mass is zero and their pose and twist are prescribed.
+template <int Dim>
+requires SpaceDimension<Dim>
+struct Bodies {
+    // State q, u.
+    std::vector<Vector<Dim>> position;     ///< of the mass centre [m]
+    std::vector<Rotation<Dim>> rotation;   ///< body axes to world axes
+    std::vector<Vector<Dim>> velocity;     ///< of the mass centre, world axes [m/s]
+    std::vector<AngularVector<Dim>> spin;  ///< **body** axes [rad/s]
+
+    // Constants.
+    std::vector<double> inverse_mass;                 ///< 0 for obstacles [1/kg]
+    std::vector<AngularVector<Dim>> inverse_inertia;  ///< principal, 0: does not turn [1/(kg m^2)]
+    std::vector<MaterialIndex> material;
+
+    std::size_t count() const { return position.size(); }
+    bool is_obstacle(std::size_t i) const { return inverse_mass[i] == 0.0; }
+    double mass(std::size_t i) const { return 1.0 / inverse_mass[i]; }  ///< infinite for obstacles
+    /// Principal moments [kg m^2]; infinite where the body does not turn.
+    AngularVector<Dim> inertia(std::size_t i) const { return inverse_inertia[i].cwiseInverse(); }
+    Pose<Dim> pose(std::size_t i) const { return {position[i], rotation[i]}; }
+    /// World-axis twist.
+    Twist<Dim> twist(std::size_t i) const { return {velocity[i], rotation[i].spin_world(spin[i])}; }
+
+    /// Adds a free body. Moments may be infinite: the body then does not turn (a point mass).
+    /// Throws input_error for a mass or moment that is not positive, for moments that no mass
+    /// distribution has (one larger than the sum of the others), and for a state that is not
+    /// finite.
+    BodyIndex add(const Inertia<Dim>& inertia, const Pose<Dim>& pose, const Twist<Dim>& twist = {},
+                  MaterialIndex material_index = 0) {
+        check(inertia);
+        return append(1.0 / inertia.mass, inertia.principal.cwiseInverse(), pose, twist,
+                      material_index);
+    }
+    /// Adds an obstacle. Its motion is prescribed by whoever steps the system.
+    BodyIndex add_obstacle(const Pose<Dim>& pose, const Twist<Dim>& twist = {},
+                           MaterialIndex material_index = 0) {
+        return append(0.0, AngularVector<Dim>::Zero(), pose, twist, material_index);
+    }
+
+  private:
+    static void check(const Inertia<Dim>& inertia) {
+        require_positive("mass", inertia.mass);
+        const AngularVector<Dim>& moments = inertia.principal;
+        for (int k = 0; k < moments.size(); ++k) {
+            if (!(moments[k] > 0.0)) detail::reject("moment of inertia", moments[k], "positive");
+            const double others = moments.sum() - moments[k];
+            constexpr double rounding = 1e-9;  // of moments computed by integration
+            if (moments.size() == 3 && moments.allFinite() && moments[k] > others * (1 + rounding))
+                detail::reject(
+                    "moment of inertia", moments[k],
+                    "at most the sum of the other two (" + detail::text_of(others) + ")");
+        }
+    }
+    BodyIndex append(double inverse_mass_, const AngularVector<Dim>& inverse_inertia_,
+                     const Pose<Dim>& pose, const Twist<Dim>& twist, MaterialIndex material_index) {
+        require_finite("position", pose.position);
+        require_finite("rotation", pose.rotation.matrix());
+        require_finite("velocity", twist.linear);
+        require_finite("spin", twist.angular);
+        if (material_index < 0) detail::reject("material", material_index, "an index from 0");
+        position.push_back(pose.position);
+        rotation.push_back(pose.rotation);
+        velocity.push_back(twist.linear);
+        spin.push_back(pose.rotation.spin_body(twist.angular));
+        inverse_mass.push_back(inverse_mass_);
+        inverse_inertia.push_back(inverse_inertia_);
+        material.push_back(material_index);
+        return static_cast<BodyIndex>(position.size() - 1);
+    }
+};
+
+/// Kinetic energy of body i [J]; zero for obstacles.
+template <int Dim>
+double kinetic_energy(const Bodies<Dim>& bodies, std::size_t i) {
+    if (bodies.is_obstacle(i)) return 0.0;
+    double twice = bodies.mass(i) * bodies.velocity[i].squaredNorm();
+    for (int k = 0; k < rotation_dof<Dim>; ++k)
+        if (bodies.inverse_inertia[i][k] > 0.0)
+            twice += bodies.spin[i][k] * bodies.spin[i][k] / bodies.inverse_inertia[i][k];
+    return 0.5 * twice;
+}
+
+/// Inverse inertia tensor of body i in world axes [1/(kg m^2)]. Exactly a multiple of the identity
+/// when all moments are equal.
+template <int Dim>
+AngularMatrix<Dim> inverse_inertia_world(const Bodies<Dim>& bodies, std::size_t i) {
+    const AngularVector<Dim>& principal = bodies.inverse_inertia[i];
+    if ((principal.array() == principal[0]).all())
+        return principal[0] * AngularMatrix<Dim>::Identity();
+    return tensor_world<Dim>(bodies.rotation[i], principal);
+}
+
+}  // namespace talus

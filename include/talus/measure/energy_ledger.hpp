@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/dynamics/bodies.hpp>
+#include <talus/problem/contact_problem.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace talus {
+
+/// Kinetic energy of all free bodies [J].
+template <int Dim>
+double kinetic_energy(const Bodies<Dim>& bodies) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < bodies.count(); ++i) sum += kinetic_energy(bodies, i);
+    return sum;
+}
+
+/// Potential energy of all free bodies in uniform gravity, zero at the origin [J].
+template <int Dim>
+double potential_energy(const Bodies<Dim>& bodies, const Vector<Dim>& gravity) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < bodies.count(); ++i)
+        if (!bodies.is_obstacle(i)) sum -= bodies.mass(i) * gravity.dot(bodies.position[i]);
+    return sum;
+}
+
+/// Energy given to the bodies, by the way it came [J]. Losses are negative.
+struct EnergyFlows {
+    double friction = 0.0;     ///< tangential impulses on their slip
+    double restitution = 0.0;  ///< normal impulses on approach and separation: the loss of impacts
+    double walls = 0.0;        ///< prescribed motion of obstacles
+    double applied = 0.0;      ///< forces other than gravity
+    double gyroscopic = 0.0;   ///< error of the gyroscopic term (zero for balls and in the plane)
+    double correction = 0.0;   ///< position correction against gravity
+
+    double sum() const {
+        return friction + restitution + walls + applied + gyroscopic + correction;
+    }
+    double magnitude() const {
+        return std::abs(friction) + std::abs(restitution) + std::abs(walls) + std::abs(applied) +
+               std::abs(gyroscopic) + std::abs(correction);
+    }
+};
+
+/// Books where the energy of a run comes from and goes to. The kinetic and potential energies are
+/// taken from the state, the flows from impulses and velocities; for constant mass and uniform
+/// gravity
+///
+///   T_end - T_begin = sum_c r_c . (U_c,begin + U_c,end)/2 - r_c . W_c
+///                     + h F . (u_begin + u_end)/2
+///
+/// holds in every step to rounding (identity of the midpoint rule), so that what is missing at the
+/// end is rounding, or a fault.
+template <int Dim>
+requires SpaceDimension<Dim>
+class EnergyLedger {
+  public:
+    EnergyLedger() = default;
+    /// Opens the books at a state.
+    EnergyLedger(const Bodies<Dim>& bodies, const Vector<Dim>& gravity) : gravity_(gravity) {
+        kinetic_ = kinetic_start_ = kinetic_energy(bodies);
+        potential_ = potential_start_ = potential_energy(bodies, gravity);
+    }
+
+    /// Books a step. `step` offers what `StepData` has: h, begin, end, applied, gyroscopic,
+    /// problem, impulse, correction_work; `bodies` is the state at the end of the step.
+    template <class Step>
+    void record(const Step& step, const Bodies<Dim>& bodies) {
+        record_contacts(step);
+        record_forces(step, bodies);
+        flows_.correction += step.correction_work;
+        kinetic_ = kinetic_energy(bodies);
+        potential_ = potential_energy(bodies, gravity_);
+        largest_ = std::max(largest_, kinetic_ + std::abs(potential_ - potential_start_));
+    }
+
+    double kinetic() const { return kinetic_; }      ///< now [J]
+    double potential() const { return potential_; }  ///< now, zero at the origin [J]
+    double kinetic_start() const { return kinetic_start_; }
+    double potential_start() const { return potential_start_; }
+    const EnergyFlows& flows() const { return flows_; }
+
+    /// Change of the energy of the state that no flow accounts for [J].
+    double missing() const {
+        return (kinetic_ - kinetic_start_) + (potential_ - potential_start_) - flows_.sum();
+    }
+    /// The same relative to the largest energy that was around or went through [-]; 0 when nothing
+    /// ever moved. About 1e-13 is rounding; more than 1e-10 is a fault.
+    double closure() const {
+        const double scale = std::max({largest_, kinetic_start_, flows_.magnitude()});
+        return scale > 0.0 ? std::abs(missing()) / scale : 0.0;
+    }
+
+  private:
+    template <class Step>
+    void record_contacts(const Step& step) {
+        const ContactJacobian<Dim>& j = step.problem.jacobian;
+        for (std::size_t c = 0; c < step.impulse.size(); ++c) {
+            const auto a = static_cast<std::size_t>(j.a[c]);
+            const auto b = static_cast<std::size_t>(j.b[c]);
+            const auto local = [&](std::size_t i, const Vector<Dim>& arm) {
+                return Vector<Dim>(j.frame[c] *
+                                   (0.5 * (step.begin[i].at(arm) + step.end[i].at(arm))));
+            };
+            const Vector<Dim> u_a = local(a, j.arm_a[c]);
+            const Vector<Dim> u_b = local(b, j.arm_b[c]);
+            const Vector<Dim> u = u_a - u_b;
+            const Vector<Dim>& r = step.impulse[c];
+            flows_.restitution += r[0] * u[0];
+            flows_.friction += r.template tail<Dim - 1>().dot(u.template tail<Dim - 1>());
+            const InverseMass<Dim>& w = step.problem.inverse_mass;
+            if (w.linear[a] == 0.0) flows_.walls -= r.dot(u_a);
+            if (w.linear[b] == 0.0) flows_.walls += r.dot(u_b);
+        }
+    }
+
+    template <class Step>
+    void record_forces(const Step& step, const Bodies<Dim>& bodies) {
+        if (step.applied.empty() && step.gyroscopic.empty()) return;
+        for (std::size_t i = 0; i < bodies.count(); ++i) {
+            if (bodies.is_obstacle(i)) continue;
+            const Twist<Dim> mean{0.5 * (step.begin[i].linear + step.end[i].linear),
+                                  0.5 * (step.begin[i].angular + step.end[i].angular)};
+            if (!step.applied.empty()) flows_.applied += applied_work(step, bodies, i, mean);
+            if (!step.gyroscopic.empty() && bodies.inverse_inertia[i].minCoeff() > 0.0) {
+                const AngularVector<Dim> spin = mid_spin_body(bodies, i, mean.angular, step.h);
+                flows_.gyroscopic +=
+                    spin.dot(step.gyroscopic[i].cwiseQuotient(bodies.inverse_inertia[i]));
+            }
+        }
+    }
+
+    template <class Step>
+    static double applied_work(const Step& step, const Bodies<Dim>& bodies, std::size_t i,
+                               const Twist<Dim>& mean) {
+        Wrench<Dim> wrench = step.applied[i];
+        for (int k = 0; k < rotation_dof<Dim>; ++k)
+            if (bodies.inverse_inertia[i][k] == 0.0) {
+                // An axis that does not turn takes no work; moments then have no meaning.
+                wrench.torque.setZero();
+            }
+        return step.h * power<Dim>(wrench, mean);
+    }
+
+    /// Body axes of the midpoint, from the state at the end: the body turned by h/2 at its end
+    /// spin.
+    static AngularVector<Dim> mid_spin_body(const Bodies<Dim>& bodies, std::size_t i,
+                                            const AngularVector<Dim>& world, double h) {
+        const Rotation<Dim> mid =
+            bodies.rotation[i] * Rotation<Dim>::exp(-0.5 * h * bodies.spin[i]);
+        return mid.spin_body(world);
+    }
+
+    Vector<Dim> gravity_ = Vector<Dim>::Zero();
+    EnergyFlows flows_;
+    double kinetic_ = 0.0, kinetic_start_ = 0.0;
+    double potential_ = 0.0, potential_start_ = 0.0;
+    double largest_ = 0.0;
+};
+
+}  // namespace talus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <talus/core/check.hpp>
+#include <talus/core/ids.hpp>
+#include <talus/core/input.hpp>
+#include <talus/core/types.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+BOOST_AUTO_TEST_SUITE(core_check)
+
+using talus::input_error;
+
+BOOST_AUTO_TEST_CASE(a_broken_precondition_names_expression_sentence_and_place) {
+    const int n = 2;
+    BOOST_CHECK_NO_THROW(TALUS_CHECK(n == 2, "n is two"));
+    BOOST_CHECK_EXCEPTION(TALUS_CHECK(n == 3, "n must be three"), talus::precondition_error,
+                          [](const auto& e) {
+                              const std::string text = e.what();
+                              return text.find("n == 3") != std::string::npos &&
+                                     text.find("n must be three") != std::string::npos &&
+                                     text.find("test_check.cpp:") != std::string::npos;
+                          });
+}
+
+BOOST_AUTO_TEST_CASE(bad_numbers_are_rejected_with_item_value_and_range) {
+    const double nan = std::nan("");
+    const double inf = std::numeric_limits<double>::infinity();
+    BOOST_CHECK_EQUAL(talus::require_positive("mass", 2.0), 2.0);
+    BOOST_CHECK_EQUAL(talus::require_non_negative("mu", 0.0), 0.0);
+    BOOST_CHECK_EQUAL(talus::require_in("e", 1.0, 0.0, 1.0), 1.0);
+    for (double bad : {0.0, -1.0, nan, inf})
+        BOOST_CHECK_THROW(talus::require_positive("mass", bad), input_error);
+    for (double bad : {-1e-300, nan, inf})
+        BOOST_CHECK_THROW(talus::require_non_negative("mu", bad), input_error);
+    for (double bad : {-0.1, 1.1, nan})
+        BOOST_CHECK_THROW(talus::require_in("e", bad, 0.0, 1.0), input_error);
+    BOOST_CHECK_EXCEPTION(
+        talus::require_in("restitution", 1.5, 0.0, 1.0), input_error, [](const auto& e) {
+            return std::string(e.what()) == "restitution is 1.5, but must be in [0, 1]";
+        });
+}
+
+BOOST_AUTO_TEST_CASE(the_first_entry_that_is_not_finite_is_named) {
+    const talus::Vector<3> good(1.0, 2.0, 3.0);
+    const talus::Vector<3> bad(1.0, std::nan(""), 3.0);
+    BOOST_CHECK_NO_THROW(talus::require_finite("position", good));
+    BOOST_CHECK_EXCEPTION(talus::require_finite("position", bad), input_error, [](const auto& e) {
+        return std::string(e.what()).find("position[1]") == 0;
+    });
+}
+
+BOOST_AUTO_TEST_CASE(contact_keys_are_ordered_by_bodies_then_feature) {
+    using talus::ContactKey;
+    BOOST_CHECK((ContactKey{1, 5, {9}} < ContactKey{2, 3, {0}}));
+    BOOST_CHECK((ContactKey{1, 3, {9}} < ContactKey{1, 5, {0}}));
+    BOOST_CHECK((ContactKey{1, 3, {0}} < ContactKey{1, 3, {1}}));
+    BOOST_CHECK((ContactKey{1, 3, {1}} == ContactKey{1, 3, {1}}));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
