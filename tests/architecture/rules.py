@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSL-1.0
+"""usage: rules.py ROOT    checks the sources below ROOT and names file, line and offence.
+
+The layering rule: a header includes its own folder and the folders listed for it, nothing else.
+"""
+import pathlib
+import re
+import sys
+
+PHYSICS = {"core", "spatial", "geometry", "collision", "dynamics"}
+ALGEBRA = {"core", "law", "problem", "solver"}
+LAYERS = {
+    "core": set(),
+    "spatial": {"core"},
+    "law": {"core"},
+    "problem": {"core", "law"},
+    "geometry": {"core", "spatial"},
+    "dynamics": {"core", "spatial"},
+    "solver": {"core", "law", "problem"},
+    "collision": {"core", "spatial", "geometry"},
+    "assembly": {"core", "spatial", "collision", "dynamics", "law", "problem"},
+    "stepping": PHYSICS | ALGEBRA | {"assembly"},
+    "sample": {"core", "spatial", "geometry", "dynamics"},
+    "measure": PHYSICS | {"law", "problem"},
+    "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
+}
+LONGEST_HEADER = 400
+KNOWS_DIMENSION = {"core", "spatial", "geometry", "collision"}
+KNOWS_STEP_SIZE = {"assembly/free_velocity.hpp", "stepping"}
+MAY_WRITE = {"io"}
+MAY_FORMAT = {"core/input.hpp"}
+
+DIMENSION_BRANCH = [
+    (re.compile(r"\bDim\s*(?:[=!]=|[<>]=?)\s*\d"), "comparison of Dim"),
+    (re.compile(r"\bDimensionTag\s*<"), "dispatch on DimensionTag"),
+    (re.compile(r"template\s*<\s*>[^;{(]*?<\s*[23]\b"), "specialisation for one dimension"),
+]
+STEP_SIZE = re.compile(r"\b(?:double|Real|float)\s+h\s*[,)=]")
+FORMATTING = re.compile(r"#include <cstdio>|\bsnprintf\s*\(")
+OUTPUT = re.compile(
+    r"#include <(?:iostream|ostream|istream|fstream|sstream|cstdio|stdio\.h|filesystem)>"
+    r"|\b(?:std::)?(?:v?(?:f|s|sn)?printf|puts|fputs|fopen|fwrite)\s*\("
+    r"|\bstd::(?:cout|cerr|clog|[io]?fstream|[io]?stringstream|[io]stream|filesystem)\b")
+REFERENCE = re.compile(r"\[([A-Z][A-Za-z]+\d{4}[a-z]?)(?:,[^\]]*)?\]")
+UNFINISHED = re.compile(r"\b(?:TODO|FIXME|XXX|HACK)\b")
+# One word per thing: the banned synonym and the word of the house.
+VOCABULARY = {
+    r"\bdt\b|\btime_?step\b|\bstep_size\b": "h",
+    r"\bpenetration_depth\b|\bseparation\b": "gap (penetration, of a whole configuration)",
+    r"\bpercussions?\b|\breactions?\b": "impulse (or mean_reaction for r / h)",
+    r"\bfriction_coeff?\w*\b": "mu",
+    r"\brestitution_coeff?\w*\b|\bcoeff?_of_restitution\b": "restitution",
+    r"\btangent_basis\b|\bcontact_basis\b": "LocalFrame",
+    r"\bnum_\w+|\bnb_\w+": "..._count",
+    r"\bmin_?max_?utils?\b|\butils?\b": "a name that says what it does",
+    r"\bbroadphase\b": "broad_phase, or the name of the method",
+    r"\bconstraint_graph\b": "contact_graph",
+}
+
+
+def without_comments(text):
+    """The code of `text`, comments and strings blanked, line numbers kept."""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match.group())
+    return re.sub(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", blank, text, flags=re.DOTALL)
+
+
+def line_of(text, position):
+    return text.count("\n", 0, position) + 1
+
+
+class Tree:
+    def __init__(self, root):
+        self.root = pathlib.Path(root)
+        self.include = self.root / "include" / "talus"
+        self.violations = []
+
+    def report(self, path, line, what):
+        self.violations.append(f"{path.relative_to(self.root)}:{line}: {what}")
+
+    def report_all(self, path, text, pattern, what):
+        for match in pattern.finditer(text):
+            self.report(path, line_of(text, match.start()), f"{what}: '{match.group().strip()}'")
+
+    def check(self):
+        bib = self.include / "references.bib"
+        self.keys = set(re.findall(r"@\w+\s*\{\s*([^,\s]+)\s*,", bib.read_text())) if bib.exists() else set()
+        for folder in sorted(p for p in self.include.iterdir() if p.is_dir()):
+            if folder.name not in LAYERS:
+                self.report(folder, 0, "folder unknown to the layering table")
+            if not (folder / "README.md").exists():
+                self.report(folder, 0, "folder without README.md")
+        for path in sorted(self.include.rglob("*.hpp")):
+            self.check_header(path)
+        for part in ("include", "tests", "examples", "bench", "validation"):
+            for path in sorted((self.root / part).rglob("*.[ch]pp")):
+                self.check_source(path)
+        return self.violations
+
+    def check_source(self, path):
+        text = path.read_text()
+        if not text.startswith("// SPDX-License-Identifier: BSL-1.0\n"):
+            self.report(path, 1, "first line is not the SPDX line of BSL-1.0")
+        self.report_all(path, text, UNFINISHED, "unfinished")
+
+    def check_header(self, path):
+        text, relative = path.read_text(), path.relative_to(self.include)
+        name = relative.as_posix()
+        folder = relative.parts[0] if len(relative.parts) > 1 else ""
+        lines = text.splitlines()
+        if len(lines) > LONGEST_HEADER:
+            self.report(path, len(lines), f"header longer than {LONGEST_HEADER} lines")
+        if lines[1:2] != ["#pragma once"]:
+            self.report(path, 2, "second line is not '#pragma once'")
+        self.check_includes(path, text, folder)
+        code = without_comments(text)
+        if folder not in KNOWS_DIMENSION:
+            for pattern, what in DIMENSION_BRANCH:
+                self.report_all(path, code, pattern, what)
+        if not {folder, name} & KNOWS_STEP_SIZE:
+            self.report_all(path, code, STEP_SIZE, "the step size is a parameter")
+        if folder not in MAY_WRITE:
+            seen = FORMATTING.sub("", code) if name in MAY_FORMAT else code
+            self.report_all(path, seen, OUTPUT, "stream, file or print outside io")
+        for synonym, word in VOCABULARY.items():
+            self.report_all(path, code, re.compile(synonym), f"the word of the house is {word}")
+        for match in REFERENCE.finditer(text):
+            if match.group(1) not in self.keys:
+                self.report(path, line_of(text, match.start()), f"{match.group(1)} is not in references.bib")
+
+    def check_includes(self, path, text, folder):
+        for match in re.finditer(r'^#\s*include\s*([<"])([^>"]+)[>"]', text, re.MULTILINE):
+            line, target = line_of(text, match.start()), match.group(2)
+            if match.group(1) == '"':
+                self.report(path, line, f'include written with quotes: "{target}"')
+            elif target.startswith("talus/") and folder:
+                other = target.split("/")[1]
+                if other != folder and other not in LAYERS.get(folder, set()):
+                    self.report(path, line, f"layering: {folder} -> {other}")
+
+
+if __name__ == "__main__":
+    found = Tree(sys.argv[1]).check()
+    print("\n".join(found) if found else "all rules hold")
+    sys.exit(1 if found else 0)
