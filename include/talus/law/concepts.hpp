@@ -25,6 +25,17 @@ concept ContactLaw = std::copyable<L> &&
     { law.natural_map(u, r, rho) } -> std::convertible_to<Vector<Dim>>;  // = r iff obeyed [N s]
 };
 
+/// Optional extension: a law that does once what depends on W alone. `prepare(W)` returns a value
+/// kept over the sweeps of one solve; `improved(prepared, u, r)` is the impulse that solves the
+/// one-contact problem, given the velocity u = W r + b that the present impulse r leads to. Solvers
+/// take any ContactLaw and use the extension where a law has it (law/prepared.hpp).
+template <class L, int Dim>
+concept PreparableLaw = ContactLaw<L, Dim> &&
+    requires(const L& law, const Matrix<Dim>& w, const Vector<Dim>& u, const Vector<Dim>& r) {
+    { law.prepare(w) } -> std::copyable;
+    { law.improved(law.prepare(w), u, r) } -> std::convertible_to<Vector<Dim>>;  // [N s]
+};
+
 /// A law that looks at a weighted mean of the velocities at begin and end of the step: in terms of
 /// the end velocity it is the law without restitution with `restitution_shift(u_begin)` added to
 /// the velocity, which assembly adds to b once per step.

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/law/prepared.hpp>
+
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace talus {
+
+/// One of several laws, chosen at run time per contact: for problems that mix, say, rough contacts
+/// and pins. The price is one branch per visit; a problem of one kind of law should use that law.
+template <int Dim, ContactLaw<Dim>... Laws>
+requires(sizeof...(Laws) > 0) struct AnyLaw {
+    std::variant<Laws...> law;
+
+    /// What each of the laws keeps of W, in the order of the laws (types may repeat).
+    using PreparedAny = std::variant<Prepared<Laws, Dim>...>;
+
+    PreparedAny prepare(const Matrix<Dim>& w) const { return prepare_from(w); }
+    Vector<Dim> improved(const PreparedAny& prepared, const Vector<Dim>& u,
+                         const Vector<Dim>& r) const {
+        return improved_from(prepared, u, r);
+    }
+    Vector<Dim> solve(const LocalProblem<Dim>& p, const Vector<Dim>& r) const {
+        return std::visit([&](const auto& l) { return Vector<Dim>(l.solve(p, r)); }, law);
+    }
+    Vector<Dim> natural_map(const Vector<Dim>& u, const Vector<Dim>& r, double rho) const {
+        return std::visit([&](const auto& l) { return Vector<Dim>(l.natural_map(u, r, rho)); },
+                          law);
+    }
+    /// The shift of the chosen law; zero for one without restitution.
+    Vector<Dim> restitution_shift(const Vector<Dim>& u_begin) const {
+        return std::visit(
+            [&](const auto& l) -> Vector<Dim> {
+                if constexpr (RestitutionLaw<std::remove_cvref_t<decltype(l)>, Dim>)
+                    return l.restitution_shift(u_begin);
+                else
+                    return Vector<Dim>::Zero();
+            },
+            law);
+    }
+    /// Throws input_error naming `item` unless the chosen law is valid.
+    void require_valid(std::string_view item) const {
+        std::visit(
+            [&](const auto& l) {
+                if constexpr (requires { l.require_valid(item); }) l.require_valid(item);
+            },
+            law);
+    }
+
+  private:
+    template <std::size_t I = 0>
+    PreparedAny prepare_from(const Matrix<Dim>& w) const {
+        if constexpr (I + 1 < sizeof...(Laws))
+            if (law.index() != I) return prepare_from<I + 1>(w);
+        return PreparedAny(std::in_place_index<I>, talus::prepare<Dim>(std::get<I>(law), w));
+    }
+    template <std::size_t I = 0>
+    Vector<Dim> improved_from(const PreparedAny& prepared, const Vector<Dim>& u,
+                              const Vector<Dim>& r) const {
+        if constexpr (I + 1 < sizeof...(Laws))
+            if (law.index() != I) return improved_from<I + 1>(prepared, u, r);
+        return talus::improved<Dim>(std::get<I>(law), std::get<I>(prepared), u, r);
+    }
+};
+
+}  // namespace talus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/types.hpp>
+
+#include <cmath>
+
+namespace talus {
+
+/// The velocity u + mu |u_t| n. With it Coulomb's law is one cone complementarity between the
+/// friction cone and its dual:  K* contains de_saxce_corrected(u), orthogonal to r in K
+/// [DeSaxceFeng1998].
+template <int Dim>
+requires SpaceDimension<Dim> Vector<Dim> de_saxce_corrected(Vector<Dim> u, double mu) {
+    u[0] += mu * u.template tail<Dim - 1>().norm();
+    return u;
+}
+
+/// The cone K = { x : |x_t| <= mu x_n } of admissible impulses and its dual
+/// K* = { x : x_n >= mu |x_t| }. Round in space, never faceted.
+template <int Dim>
+requires SpaceDimension<Dim>
+struct FrictionCone {
+    double mu = 0.0;  ///< slope: friction coefficient [-], finite, not negative
+
+    bool contains(const Vector<Dim>& x) const {
+        return x[0] >= 0.0 && x.template tail<Dim - 1>().norm() <= mu * x[0];
+    }
+    bool dual_contains(const Vector<Dim>& x) const {
+        return x[0] >= mu * x.template tail<Dim - 1>().norm();
+    }
+
+    /// Nearest point of K. Homogeneous of degree one; no overflow for any finite mu.
+    Vector<Dim> project(const Vector<Dim>& x) const {
+        const double t = x.template tail<Dim - 1>().norm();
+        // The polar cone first: with mu = 0 and x_t = 0 both tests would accept x_n < 0.
+        if (mu * t <= -x[0]) return Vector<Dim>::Zero();
+        if (t <= mu * x[0]) return x;
+        const double secant = std::hypot(1.0, mu);
+        const double length = x[0] / secant + (mu / secant) * t;  // along the generator below x
+        Vector<Dim> y;
+        y[0] = length / secant;
+        y.template tail<Dim - 1>() = (length * (mu / secant) / t) * x.template tail<Dim - 1>();
+        return y;
+    }
+
+    /// Nearest point of K*, by Moreau's decomposition  x = P_K*(x) - P_K(-x).
+    Vector<Dim> project_dual(const Vector<Dim>& x) const { return x + project(-x); }
+};
+
+}  // namespace talus

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/input.hpp>
+#include <talus/law/prepared.hpp>
+
+#include <string_view>
+
+namespace talus {
+
+/// `Law` applied to a weighted mean of the relative velocities at begin and end of the step,
+/// (1 - theta) u_begin + theta u_end, with weights of their own for the normal and the tangential
+/// part [Moreau, section 3]. Restitution e and weight are tied by theta = 1 / (1 + e), e in [0, 1].
+///
+/// For a law that looks at the sign of u_n and the direction of u_t only, the mean may be divided
+/// by theta: it is the law on u_end + (e_n u_n_begin, e_t u_t_begin). Hence the adaptor does
+/// nothing but name that shift, which assembly adds once per step, and forwards the rest. With e_n
+/// != e_t the mean is scaled apart in n and t; it still vanishes, opens and has its direction where
+/// the shifted velocity does. Different e_n and e_t can create energy [KaneLevinson1985]: a
+/// property of the law.
+template <int Dim, ContactLaw<Dim> Law>
+struct WeightedMean {
+    Law law;                              ///< the relation obeyed by the mean velocity
+    double restitution_normal = 0.0;      ///< e_n [-], in [0, 1]; 0 is soft, 1 bounces back
+    double restitution_tangential = 0.0;  ///< e_t [-], in [0, 1]
+
+    Vector<Dim> restitution_shift(const Vector<Dim>& u_begin) const {
+        Vector<Dim> shift = restitution_tangential * u_begin;
+        shift[0] = restitution_normal * u_begin[0];
+        return shift;
+    }
+    Prepared<Law, Dim> prepare(const Matrix<Dim>& w) const { return talus::prepare<Dim>(law, w); }
+    Vector<Dim> improved(const Prepared<Law, Dim>& prepared, const Vector<Dim>& u,
+                         const Vector<Dim>& r) const {
+        return talus::improved<Dim>(law, prepared, u, r);
+    }
+    Vector<Dim> solve(const LocalProblem<Dim>& p, const Vector<Dim>& r) const {
+        return law.solve(p, r);
+    }
+    Vector<Dim> natural_map(const Vector<Dim>& u, const Vector<Dim>& r, double rho) const {
+        return law.natural_map(u, r, rho);
+    }
+    /// Throws input_error naming `item` unless both restitutions lie in [0, 1] and `law` is valid.
+    void require_valid(std::string_view item) const {
+        const std::string name(item);
+        require_in(name + ".restitution_normal", restitution_normal, 0.0, 1.0);
+        require_in(name + ".restitution_tangential", restitution_tangential, 0.0, 1.0);
+        if constexpr (requires { law.require_valid(item); }) law.require_valid(name + ".law");
+    }
+};
+
+}  // namespace talus
