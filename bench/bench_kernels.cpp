@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <talus/collision/hierarchical_grid.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 #include <talus/solver/gauss_seidel.hpp>
@@ -88,6 +89,38 @@ void sweeps_of_balls(benchmark::State& state) { sweeps(state, true); }
 void sweeps_of_any_bodies(benchmark::State& state) { sweeps(state, false); }
 BENCHMARK(sweeps_of_balls)->Arg(10)->Arg(14)->Arg(19)->Unit(benchmark::kMillisecond);
 BENCHMARK(sweeps_of_any_bodies)->Arg(14)->Unit(benchmark::kMillisecond);
+
+/// Balls of sizes 1 to `ratio`, equal volume per octave of size, at random in a cube filled to 0.6
+/// (overlapping): candidates per body stay the same as the number of bodies grows.
+void broad_phase(benchmark::State& state) {
+    const auto n = static_cast<std::size_t>(state.range(0));
+    const auto ratio = static_cast<double>(state.range(1));
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> unit;
+    std::vector<double> diameter(n);
+    double volume = 0.0;
+    for (double& d : diameter) {
+        const double x = unit(random);
+        d = 1.0 / std::cbrt(1.0 - x * (1.0 - std::pow(ratio, -3.0)));
+        volume += d * d * d * 0.5236;
+    }
+    const double side = std::cbrt(volume / 0.6);
+    std::vector<talus::Aabb<3>> boxes;
+    for (const double d : diameter) {
+        const Vec low = side * Vec::NullaryExpr([&] { return unit(random); });
+        boxes.push_back({low, low + Vec::Constant(d)});
+    }
+    talus::HierarchicalGrid<3> grid;
+    std::vector<talus::CandidatePair> pairs;
+    for (auto _ : state) grid.find_pairs(boxes, talus::NoObstacles{}, pairs);
+    state.counters["pairs_per_body"] = static_cast<double>(pairs.size()) / static_cast<double>(n);
+    state.counters["s/body"] =
+        benchmark::Counter(static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate |
+                                                       benchmark::Counter::kInvert);
+}
+BENCHMARK(broad_phase)
+    ->ArgsProduct({{1000, 10000, 100000}, {1, 20}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
