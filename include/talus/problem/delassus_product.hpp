@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/check.hpp>
+#include <talus/problem/concepts.hpp>
+#include <talus/problem/contact_problem.hpp>
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace talus {
+
+/// Whether every inverse inertia tensor of `m` is exactly a multiple of the identity (balls and
+/// cubes, and everything in the plane). Then DelassusProduct<Dim, double> applies.
+template <int Dim>
+bool has_scalar_inertia(const InverseMass<Dim>& m) {
+    for (const AngularMatrix<Dim>& i : m.angular)
+        if (i != AngularMatrix<Dim>::Identity() * i(0, 0)) return false;
+    return true;
+}
+
+/// W = H^T M^-1 H without W: it carries the body velocities v = M^-1 H r along, so that following
+/// one contact's impulse costs the same however many neighbours the contact has.
+///
+/// `Inertia` is how a body's inverse inertia is stored: AngularMatrix<Dim> for any body, double
+/// where has_scalar_inertia; the first is the oracle of the second. Contacts are packed in one row
+/// each (in space 128 bytes, two cache lines), bodies in one line each (in space 64 bytes with
+/// scalar inertia: one cache line, 120 with a tensor), so that a sweep reads contacts as a stream.
+template <int Dim, class Inertia = AngularMatrix<Dim>>
+requires std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, double>
+class DelassusProduct {
+  public:
+    DelassusProduct() = default;
+    DelassusProduct(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
+        assign(jacobian, inverse_mass);
+    }
+
+    /// Takes a new problem in, at zero impulses. Allocates only if it is larger than any before.
+    void assign(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
+        contacts_.resize(jacobian.contact_count());
+        for (std::size_t i = 0; i < contacts_.size(); ++i)
+            contacts_[i] = {jacobian.frame[i], jacobian.arm_a[i], jacobian.arm_b[i], jacobian.a[i],
+                            jacobian.b[i]};
+        bodies_.resize(inverse_mass.body_count());
+        for (std::size_t k = 0; k < bodies_.size(); ++k) {
+            bodies_[k].inverse_mass = inverse_mass.linear[k];
+            if constexpr (std::same_as<Inertia, double>)
+                bodies_[k].inverse_inertia = inverse_mass.angular[k](0, 0);
+            else
+                bodies_[k].inverse_inertia = inverse_mass.angular[k];
+            bodies_[k].linear.setZero();
+            bodies_[k].angular.setZero();
+        }
+    }
+
+    std::size_t contact_count() const { return contacts_.size(); }
+
+    /// W_ii, exactly symmetric.
+    Matrix<Dim> diagonal_block(std::size_t i) const {
+        const Row& c = contacts_[i];
+        Matrix<Dim> world = Matrix<Dim>::Zero();
+        for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
+            const Body& x = bodies_[static_cast<std::size_t>(body)];
+            const Eigen::Matrix<double, rotation_dof<Dim>, Dim> lever = moment_matrix<Dim>(arm);
+            world += x.inverse_mass * Matrix<Dim>::Identity() +
+                     lever.transpose() * (x.inverse_inertia * lever);
+        }
+        const Matrix<Dim> w = c.frame * world * c.frame.transpose();
+        return 0.5 * (w + w.transpose());
+    }
+
+    /// u = W r, for impulses that need not be the ones followed. Not for concurrent use of one
+    /// operator: the body velocities it needs are kept from call to call.
+    void multiply(std::span<const Vector<Dim>> r, std::span<Vector<Dim>> u) const {
+        TALUS_CHECK(r.size() == contacts_.size(), "one impulse per contact");
+        TALUS_CHECK(u.size() == contacts_.size(), "one velocity per contact");
+        scratch_ = bodies_;
+        accumulate(r, scratch_);
+        for (std::size_t i = 0; i < contacts_.size(); ++i) u[i] = velocity(contacts_[i], scratch_);
+    }
+
+    /// Velocities of the impulses `r`, computed afresh.
+    void start(std::span<const Vector<Dim>> r) {
+        TALUS_CHECK(r.size() == contacts_.size(), "one impulse per contact");
+        accumulate(r, bodies_);
+    }
+
+    /// Row i of W r for the present impulses [m/s].
+    Vector<Dim> velocity(std::size_t i) const { return velocity(contacts_[i], bodies_); }
+
+    /// r_i += dr.
+    void add(std::size_t i, const Vector<Dim>& dr) { add(contacts_[i], dr, bodies_); }
+
+  private:
+    struct Row {
+        Matrix<Dim> frame;
+        Vector<Dim> arm_a, arm_b;
+        BodyIndex a, b;
+    };
+    struct Body {
+        Vector<Dim> linear;
+        AngularVector<Dim> angular;
+        double inverse_mass;
+        Inertia inverse_inertia;
+    };
+
+    static Vector<Dim> velocity(const Row& c, const std::vector<Body>& bodies) {
+        const Body& a = bodies[static_cast<std::size_t>(c.a)];
+        const Body& b = bodies[static_cast<std::size_t>(c.b)];
+        return c.frame * (a.linear - b.linear + cross<Dim>(a.angular, c.arm_a) -
+                          cross<Dim>(b.angular, c.arm_b));
+    }
+    static void add(const Row& c, const Vector<Dim>& dr, std::vector<Body>& bodies) {
+        Body& a = bodies[static_cast<std::size_t>(c.a)];
+        Body& b = bodies[static_cast<std::size_t>(c.b)];
+        const Vector<Dim> impulse = c.frame.transpose() * dr;
+        a.linear += a.inverse_mass * impulse;
+        a.angular += a.inverse_inertia * moment<Dim>(c.arm_a, impulse);
+        b.linear -= b.inverse_mass * impulse;
+        b.angular -= b.inverse_inertia * moment<Dim>(c.arm_b, impulse);
+    }
+    void accumulate(std::span<const Vector<Dim>> r, std::vector<Body>& bodies) const {
+        for (Body& x : bodies) {
+            x.linear.setZero();
+            x.angular.setZero();
+        }
+        for (std::size_t i = 0; i < contacts_.size(); ++i) add(contacts_[i], r[i], bodies);
+    }
+
+    std::vector<Row> contacts_;
+    std::vector<Body> bodies_;
+    mutable std::vector<Body> scratch_;
+};
+static_assert(SweepableDelassus<DelassusProduct<2>, 2> && SweepableDelassus<DelassusProduct<3>, 3>);
+static_assert(SweepableDelassus<DelassusProduct<3, double>, 3>);
+
+}  // namespace talus

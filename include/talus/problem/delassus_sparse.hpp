@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/check.hpp>
+#include <talus/core/input.hpp>
+#include <talus/problem/concepts.hpp>
+#include <talus/problem/contact_problem.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// One block of W, for building a DelassusSparse from blocks.
+template <int Dim>
+struct DelassusBlock {
+    std::size_t row = 0;
+    std::size_t column = 0;
+    Matrix<Dim> value = Matrix<Dim>::Zero();  ///< W_row,column [1/kg]
+};
+
+/// W = H^T M^-1 H assembled: blocks W_ij in compressed rows, columns ascending, for contacts that
+/// share a body that moves. Storage: Dim^2 numbers per pair of neighbours (some ten per contact in
+/// a packing, but the square of its contacts for a large body).
+template <int Dim>
+requires SpaceDimension<Dim>
+class DelassusSparse {
+  public:
+    DelassusSparse() = default;
+    DelassusSparse(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
+        assemble(jacobian, inverse_mass);
+    }
+    /// From any blocks: those of equal place are summed, every row has a diagonal block (zero if
+    /// none is given). The caller sees to symmetry. Throws input_error on an index not below `n`.
+    DelassusSparse(std::size_t n, std::vector<DelassusBlock<Dim>> blocks) {
+        for (const auto& block : blocks)
+            if (std::max(block.row, block.column) >= n)
+                throw input_error("index of a Delassus block is " +
+                                  std::to_string(std::max(block.row, block.column)) +
+                                  ", but must be below " + std::to_string(n));
+        for (std::size_t i = 0; i < n; ++i) blocks.push_back({i, i, Matrix<Dim>::Zero()});
+        compress(n, std::move(blocks));
+    }
+
+    std::size_t contact_count() const { return diagonal_.size(); }
+    std::size_t block_count() const { return value_.size(); }
+    Matrix<Dim> diagonal_block(std::size_t i) const { return value_[diagonal_[i]]; }
+
+    /// u = W r.
+    void multiply(std::span<const Vector<Dim>> r, std::span<Vector<Dim>> u) const {
+        TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
+        for (std::size_t i = 0; i < contact_count(); ++i) u[i] = row_times(i, r);
+    }
+    /// Takes the impulses in.
+    void start(std::span<const Vector<Dim>> r) {
+        TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
+        impulse_.assign(r.begin(), r.end());
+    }
+    /// Row i of W r for the present impulses [m/s]. Cost: the neighbours of contact i.
+    Vector<Dim> velocity(std::size_t i) const {
+        return row_times(i, std::span<const Vector<Dim>>(impulse_));
+    }
+    /// r_i += dr.
+    void add(std::size_t i, const Vector<Dim>& dr) { impulse_[i] += dr; }
+
+  private:
+    Vector<Dim> row_times(std::size_t i, std::span<const Vector<Dim>> r) const {
+        Vector<Dim> u = Vector<Dim>::Zero();
+        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
+            u += value_[k] * r[column_[k]];
+        return u;
+    }
+
+    /// H_ik^T restricted to body k: velocity of the contact per twist of the body.
+    static Eigen::Matrix<double, Dim, twist_dof<Dim>> velocity_map(
+        const ContactJacobian<Dim>& jacobian, std::size_t contact, BodyIndex body) {
+        Eigen::Matrix<double, Dim, twist_dof<Dim>> map =
+            Eigen::Matrix<double, Dim, twist_dof<Dim>>::Zero();
+        const auto side = [&](const Vector<Dim>& arm, double sign) {
+            map.template leftCols<Dim>() += sign * jacobian.frame[contact];
+            map.template rightCols<rotation_dof<Dim>>() +=
+                sign * jacobian.frame[contact] * moment_matrix<Dim>(arm).transpose();
+        };
+        if (jacobian.a[contact] == body) side(jacobian.arm_a[contact], 1.0);
+        if (jacobian.b[contact] == body) side(jacobian.arm_b[contact], -1.0);
+        return map;
+    }
+
+    void assemble(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
+        std::vector<std::vector<std::size_t>> contacts_of(inverse_mass.body_count());
+        for (std::size_t i = 0; i < jacobian.contact_count(); ++i) {
+            contacts_of[static_cast<std::size_t>(jacobian.a[i])].push_back(i);
+            if (jacobian.b[i] != jacobian.a[i])
+                contacts_of[static_cast<std::size_t>(jacobian.b[i])].push_back(i);
+        }
+        std::vector<DelassusBlock<Dim>> blocks;
+        for (std::size_t i = 0; i < jacobian.contact_count(); ++i)
+            blocks.push_back({i, i, Matrix<Dim>::Zero()});
+        for (std::size_t k = 0; k < contacts_of.size(); ++k) {
+            if (inverse_mass.linear[k] == 0.0 && inverse_mass.angular[k].isZero(0.0)) continue;
+            Eigen::Matrix<double, twist_dof<Dim>, twist_dof<Dim>> mobility;
+            mobility.setZero();
+            mobility.template topLeftCorner<Dim, Dim>().diagonal().setConstant(
+                inverse_mass.linear[k]);
+            mobility.template bottomRightCorner<rotation_dof<Dim>, rotation_dof<Dim>>() =
+                inverse_mass.angular[k];
+            const auto body = static_cast<BodyIndex>(k);
+            for (const std::size_t i : contacts_of[k])
+                for (const std::size_t j : contacts_of[k])
+                    blocks.push_back({i, j,
+                                      velocity_map(jacobian, i, body) * mobility *
+                                          velocity_map(jacobian, j, body).transpose()});
+        }
+        compress(jacobian.contact_count(), std::move(blocks));
+    }
+
+    /// Sorts blocks into rows and sums those of equal place, in the order they came.
+    void compress(std::size_t n, std::vector<DelassusBlock<Dim>> blocks) {
+        std::stable_sort(blocks.begin(), blocks.end(), [](const auto& x, const auto& y) {
+            return x.row != y.row ? x.row < y.row : x.column < y.column;
+        });
+        row_begin_.assign(n + 1, 0);
+        diagonal_.assign(n, 0);
+        for (std::size_t k = 0; k < blocks.size(); ++k) {
+            const auto& block = blocks[k];
+            const bool again =
+                k > 0 && blocks[k - 1].row == block.row && blocks[k - 1].column == block.column;
+            if (again) {
+                value_.back() += block.value;
+                continue;
+            }
+            if (block.row == block.column) diagonal_[block.row] = value_.size();
+            value_.push_back(block.value);
+            column_.push_back(block.column);
+            row_begin_[block.row + 1] = value_.size();
+        }
+    }
+
+    std::vector<std::size_t> row_begin_;
+    std::vector<std::size_t> column_;
+    std::vector<Matrix<Dim>> value_;
+    std::vector<std::size_t> diagonal_;  ///< place of W_ii in value_
+    std::vector<Vector<Dim>> impulse_;
+};
+static_assert(SweepableDelassus<DelassusSparse<2>, 2> && SweepableDelassus<DelassusSparse<3>, 3>);
+
+}  // namespace talus

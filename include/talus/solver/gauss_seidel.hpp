@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/check.hpp>
+#include <talus/core/input.hpp>
+#include <talus/core/observer.hpp>
+#include <talus/law/prepared.hpp>
+#include <talus/problem/delassus_product.hpp>
+#include <talus/problem/residual.hpp>
+#include <talus/solver/concepts.hpp>
+#include <talus/solver/sweep_order.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace talus {
+
+struct GaussSeidelParams {
+    /// Sweeps allowed [-], not negative. Piles need some ten per layer of grains for 1e-3.
+    int max_sweeps = 1000;
+    /// On the residual of problem/residual.hpp, relative, Euclidean norm [-]. 1e-3 shows in no
+    /// picture, 1e-6 is good for statistics of forces, 1e-12 is near rounding. Convergence is
+    /// linear: each digit costs the same number of sweeps. 0 asks for all of max_sweeps.
+    double tolerance = 1e-8;
+    /// Ascending: contacts come as a stream, the fastest on present machines.
+    SweepOrder order = SweepOrder::forward;
+    /// Of SweepOrder::random; not used otherwise. Any value is as good.
+    std::uint64_t seed = 1;
+};
+
+/// Nonsmooth Gauss-Seidel [Moreau, section 4; JourdanAlartJean1998]: visit the contacts in turn,
+/// solving each exactly with the impulses of the others as they are.
+///
+/// Finds a solution where the laws' local problems have one, from any start, in practice always and
+/// by theorem without friction. Converges linearly, slowly for deep or stiff systems (sweeps grow
+/// with the square of the number of layers). Where impulses are not unique the start and the order
+/// choose.
+///
+/// The true residual, which costs about half a sweep, is evaluated on arrival, after 1, 2, 4, 8...
+/// sweeps, and when the change of the impulses in a sweep, times the ratio of the two found last,
+/// says that it may have reached the tolerance. Each evaluation first recomputes the velocities
+/// from the impulses, so that rounding errors do not pile up and the verdict is on what is
+/// returned.
+///
+/// One object may be used again for any problems; it allocates when a problem is larger than all
+/// before. The same input gives the same bits, whether observed or not.
+template <int Dim, ContactLaw<Dim> Law>
+class GaussSeidel {
+  public:
+    /// Residuals kept in SolveReport::history; from then on the last one is replaced.
+    static constexpr std::size_t history_limit = 64;
+
+    explicit GaussSeidel(GaussSeidelParams params = {}) : params(params) {}
+
+    /// To be changed between solves at will; checked by `solve`.
+    GaussSeidelParams params;
+
+    /// Solves `problem` from the warm start `r`, into `r`. `on_sweep(sweep, residual)` is called
+    /// after each sweep and may return bool, false to stop; calling it costs one evaluation of the
+    /// residual per sweep, talus::Ignore costs nothing. Throws input_error on parameters out of
+    /// range or arrays of different lengths.
+    template <class OnSweep = Ignore>
+    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r,
+                             OnSweep&& on_sweep = {}) {
+        if (has_scalar_inertia(problem.inverse_mass)) {
+            scalar_product_.assign(problem.jacobian, problem.inverse_mass);
+            return solve(scalar_product_, problem.free_velocity, problem.laws, r, on_sweep);
+        }
+        product_.assign(problem.jacobian, problem.inverse_mass);
+        return solve(product_, problem.free_velocity, problem.laws, r, on_sweep);
+    }
+
+    /// The same with an operator of the caller's: assembled, or from a system that is not made of
+    /// rigid bodies. `w` is left following the impulses returned.
+    template <SweepableDelassus<Dim> W, class OnSweep = Ignore>
+    const SolveReport& solve(W& w, std::span<const Vector<Dim>> free_velocity,
+                             std::span<const Law> laws, std::span<Vector<Dim>> r,
+                             OnSweep&& on_sweep = {}) {
+        require_sizes(w.contact_count(), free_velocity.size(), laws.size(), r.size());
+        require_non_negative("max_sweeps", params.max_sweeps);
+        require_non_negative("tolerance", params.tolerance);
+        const Task<W> task{w, free_velocity, laws, r};
+        prepare(task);
+        if (verify(task, 0)) return report_;
+        iterate(task, on_sweep);
+        return report_;
+    }
+
+    const SolveReport& report() const { return report_; }  ///< of the last solve
+
+  private:
+    template <class W>
+    struct Task {
+        W& w;
+        std::span<const Vector<Dim>> free_velocity;
+        std::span<const Law> laws;
+        std::span<Vector<Dim>> r;
+    };
+
+    static void require_sizes(std::size_t contacts, std::size_t velocities, std::size_t laws,
+                              std::size_t impulses) {
+        const auto same = [&](std::string_view item, std::size_t size) {
+            if (size != contacts)
+                throw input_error("number of " + std::string(item) + " is " + std::to_string(size) +
+                                  ", but must be that of contacts, " + std::to_string(contacts));
+        };
+        same("free velocities", velocities);
+        same("laws", laws);
+        same("impulses", impulses);
+    }
+
+    template <class W>
+    void prepare(const Task<W>& task) {
+        report_.history.clear();
+        report_.history.reserve(history_limit);
+        last_finite_.assign(task.r.begin(), task.r.end());
+        sequence_.reset(params.order, params.seed, task.r.size());
+        measure_.prepare(task.w);
+        prepared_.clear();
+        prepared_.reserve(task.r.size());
+        for (std::size_t i = 0; i < task.r.size(); ++i)
+            prepared_.push_back(talus::prepare<Dim>(task.laws[i], task.w.diagonal_block(i)));
+    }
+
+    template <class W, class OnSweep>
+    void iterate(const Task<W>& task, OnSweep& on_sweep) {
+        double ratio = 0.0;  // of the residual to the change in a sweep, when last known
+        int next_look = 1;
+        for (int k = 1; k <= params.max_sweeps; ++k) {
+            const double change = sweep(task);
+            bool go_on = true;
+            if constexpr (!std::is_same_v<std::remove_cvref_t<OnSweep>, Ignore>)
+                go_on = notify(on_sweep, k, evaluate(task).relative);
+            // Written so that a change that is not a number calls for a look.
+            const bool hopeful = !(change * ratio > params.tolerance);
+            if (go_on && k != params.max_sweeps && k != next_look && !hopeful) continue;
+            if (verify(task, k)) return;
+            if (!go_on) report_.status = SolveStatus::stopped;
+            // Nothing moves: what is left is no contact's to solve.
+            if (!go_on || change == 0.0) return;
+            ratio = report_.residual / change;
+            if (k == next_look) next_look *= 2;
+        }
+    }
+
+    /// One sweep; returns the norm of the change of the impulses, || D^-1/2 dr || [sqrt(J)].
+    template <class W>
+    double sweep(const Task<W>& task) {
+        double change = 0.0;
+        sequence_.next([&](std::size_t i) {
+            const Vector<Dim> u = task.w.velocity(i) + task.free_velocity[i];
+            const Vector<Dim> r = talus::improved<Dim>(task.laws[i], prepared_[i], u, task.r[i]);
+            const Vector<Dim> dr = r - task.r[i];
+            change += dr.squaredNorm() / measure_.effective_mass(i);
+            task.w.add(i, dr);
+            task.r[i] = r;
+        });
+        return std::sqrt(change);
+    }
+
+    template <class W>
+    Residual evaluate(const Task<W>& task) const {
+        return measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
+                                               [&](std::size_t i) { return task.w.velocity(i); });
+    }
+
+    /// Evaluates the residual afresh, notes it, and tells whether the solve is over.
+    template <class W>
+    bool verify(const Task<W>& task, int sweeps) {
+        task.w.start(task.r);
+        const Residual residual = evaluate(task);
+        report_.sweeps = sweeps;
+        report_.status = SolveStatus::sweep_limit;
+        if (!residual.finite()) {
+            std::copy(last_finite_.begin(), last_finite_.end(), task.r.begin());
+            report_.status = SolveStatus::not_finite;
+        } else if (residual.relative <= params.tolerance) {
+            report_.status = SolveStatus::converged;
+        } else {
+            std::copy(task.r.begin(), task.r.end(), last_finite_.begin());
+        }
+        report_.residual = residual.relative;
+        if (report_.history.size() == history_limit) report_.history.pop_back();
+        report_.history.push_back({sweeps, residual.relative});
+        return report_.status != SolveStatus::sweep_limit;
+    }
+
+    DelassusProduct<Dim> product_;
+    DelassusProduct<Dim, double> scalar_product_;
+    std::vector<Prepared<Law, Dim>> prepared_;
+    std::vector<Vector<Dim>> last_finite_;
+    ResidualMeasure<Dim> measure_;
+    SweepSequence sequence_;
+    SolveReport report_;
+};
+
+}  // namespace talus

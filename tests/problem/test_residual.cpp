@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <talus/law/bilateral.hpp>
+#include <talus/law/coulomb.hpp>
+#include <talus/law/signorini.hpp>
+#include <talus/problem/residual.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <limits>
+
+#include "common/dimensions.hpp"
+#include "common/random_problem.hpp"
+
+namespace {
+
+constexpr double rounding = 1e-12;  // relative, of sums over some ten contacts
+
+template <int Dim>
+std::vector<talus::Vector<Dim>> random_impulses(RandomBlocks& random, std::size_t n) {
+    std::vector<talus::Vector<Dim>> r(n);
+    for (auto& x : r) x = random.normal<Dim>();
+    return r;
+}
+
+/// One unit mass, a particle, on an obstacle.
+template <int Dim, class Law>
+talus::ContactProblem<Dim, Law> particle(const talus::Vector<Dim>& free_velocity, const Law& law) {
+    RandomBlocks random(0);
+    auto p =
+        RandomProblem<Dim, Law>{.bodies = 2, .contacts = 1, .mass_ratio = 1.0, .arm = 0.0}.make(
+            random, law);
+    p.free_velocity[0] = free_velocity;
+    return p;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(residual)
+
+// W = 1, so rho = 1: every number can be written down.
+BOOST_AUTO_TEST_CASE_TEMPLATE(residual_of_a_particle_is_the_hand_computed_one, D, dimensions) {
+    using Vec = talus::Vector<D::value>;
+    const auto p = particle<D::value, talus::Coulomb<D::value>>(
+        -3.0 * Vec::Unit(0) + 4.0 * Vec::Unit(1), {.mu = 0.5});
+    std::vector<Vec> r{Vec::Zero()};
+    // f = P_K(-u - 2 n) with u = (-3, 4): P_K(1, -4) = (1 + 2) / 1.25 (1, -0.5), scale |u_free|
+    // = 5.
+    BOOST_TEST(talus::residual(p, std::span<const Vec>(r)).relative == 2.4 * std::sqrt(1.25) / 5.0,
+               boost::test_tools::tolerance(1e-14));
+    r[0] = 3.0 * Vec::Unit(0) - 1.5 * Vec::Unit(1);  // stops u_n, slides on: the solution
+    const talus::Residual solved = talus::residual(p, std::span<const Vec>(r));
+    BOOST_TEST(solved.relative < 1e-15);
+    BOOST_TEST(solved.finite());
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(residual_does_not_depend_on_units, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    RandomBlocks random(41);
+    const auto p =
+        RandomProblem<dim, talus::Coulomb<dim>>{.mass_ratio = 1e3}.make(random, {.mu = 0.5});
+    auto r = random_impulses<dim>(random, p.contact_count());
+    const double eta = talus::residual(p, std::span<const Vec>(r)).relative;
+    BOOST_TEST(eta > 0.01);
+    for (const double length : {1e-6, 1e3})
+        for (const double mass : {1e-15, 1.0, 1e9})
+            for (const double time : {1e-3, 1e4}) {
+                auto scaled = r;
+                for (auto& x : scaled) x *= mass * length / time;
+                const auto q = in_other_units(p, length, mass, time);
+                BOOST_TEST(talus::residual(q, std::span<const Vec>(scaled)).relative == eta,
+                           boost::test_tools::tolerance(rounding));
+            }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(residual_does_not_depend_on_duplication, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    RandomBlocks random(42);
+    auto p = RandomProblem<dim, talus::Coulomb<dim>>{}.make(random, {.mu = 0.5});
+    p.jacobian.a[3] = p.jacobian.b[3] = 5;  // W_cc = 0 must not spoil it
+    auto r = random_impulses<dim>(random, p.contact_count());
+    const auto once = talus::residual(p, std::span<const Vec>(r));
+    const std::size_t n = r.size();
+    for (std::size_t i = 0; i < n; ++i) r.push_back(r[i]);
+    const auto both = talus::residual(twice(p), std::span<const Vec>(r));
+    BOOST_TEST(both.relative == once.relative, boost::test_tools::tolerance(rounding));
+    BOOST_TEST(both.worst_share == once.worst_share, boost::test_tools::tolerance(rounding));
+    BOOST_TEST(both.worst_contact % n == once.worst_contact);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(worst_contact_is_the_one_that_is_off, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    auto p = particle<dim, talus::Signorini<dim>>(-Vec::Unit(0), {});
+    for (int k = 0; k < 3; ++k) p = twice(p);
+    std::vector<Vec> r(8, Vec::Unit(0));
+    r[5] *= 0.9;
+    const auto res = talus::residual(p, std::span<const Vec>(r));
+    BOOST_TEST(res.worst_contact == 5U);
+    BOOST_TEST(res.worst_share == 0.1, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(res.relative == 0.1 / std::sqrt(8.0), boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(contact_between_obstacles_stays_visible, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    auto p = particle<dim, talus::Signorini<dim>>(-Vec::Unit(0), {});
+    p.inverse_mass.linear[0] = 0.0;
+    p.inverse_mass.angular[0].setZero();
+    std::vector<Vec> r{Vec::Zero()};
+    BOOST_TEST(talus::residual(p, std::span<const Vec>(r)).relative == 1.0);
+    p.free_velocity[0] = Vec::Unit(0);
+    BOOST_TEST(talus::residual(p, std::span<const Vec>(r)).relative == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(nothing_over_nothing_is_zero, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    const auto p = particle<dim, talus::Coulomb<dim>>(Vec::Zero(), {.mu = 0.5});
+    const std::vector<Vec> r{Vec::Zero()};
+    BOOST_TEST(talus::residual(p, std::span<const Vec>(r)).relative == 0.0);
+    const talus::ContactProblem<dim, talus::Coulomb<dim>> empty;
+    BOOST_TEST(talus::residual(empty, std::span<const Vec>()).relative == 0.0);
+    BOOST_CHECK_THROW(talus::residual(empty, std::span<const Vec>(r)), talus::input_error);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_not_finite_shows, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+          -std::numeric_limits<double>::infinity()})
+        for (int component = 0; component < dim; ++component) {
+            RandomBlocks random(43);
+            const auto good = RandomProblem<dim, talus::Signorini<dim>>{}.make(random, {});
+            auto r = random_impulses<dim>(random, good.contact_count());
+            auto p = good;
+            p.free_velocity[2][component] = bad;
+            BOOST_TEST(!talus::residual(p, std::span<const Vec>(r)).finite());
+            p = good;
+            p.jacobian.frame[2](component, 0) = bad;
+            BOOST_TEST(!talus::residual(p, std::span<const Vec>(r)).finite());
+            r[3][component] = bad;
+            BOOST_TEST(!talus::residual(good, std::span<const Vec>(r)).finite());
+        }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
