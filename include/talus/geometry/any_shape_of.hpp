@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/check.hpp>
+#include <talus/geometry/concepts.hpp>
+
+#include <concepts>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace talus {
+
+/// One of a closed list of shapes, chosen at run time; itself a SolidShape, so that a scene of
+/// mixed shapes is stored like a scene of one. Shapes of the list that have no inside (half-spaces)
+/// are held as well: asking one for its mass properties throws input_error.
+template <int Dim, Shape<Dim>... Shapes>
+class AnyShapeOf {
+  public:
+    template <class S>
+    requires(std::same_as<S, Shapes> || ...) AnyShapeOf(S shape) : held_(std::move(shape)) {}
+
+    /// The shape itself: `visit(overloads, shape.held())`, `std::get_if<Ball<3>>(&shape.held())`.
+    const std::variant<Shapes...>& held() const { return held_; }
+
+    Aabb<Dim> aabb(const Pose<Dim>& pose) const {
+        return std::visit([&](const auto& s) -> Aabb<Dim> { return s.aabb(pose); }, held_);
+    }
+    MassProperties<Dim> mass_properties() const {
+        return std::visit(
+            []<class S>(const S& s) -> MassProperties<Dim> {
+                if constexpr (SolidShape<S, Dim>)
+                    return s.mass_properties();
+                else
+                    throw input_error(
+                        "shape of a body is unbounded, but must be a solid; "
+                        "half-spaces are for obstacles");
+            },
+            held_);
+    }
+    AnyShapeOf placed(const Pose<Dim>& pose) const {
+        return std::visit([&](const auto& s) { return AnyShapeOf(s.placed(pose)); }, held_);
+    }
+
+  private:
+    std::variant<Shapes...> held_;
+};
+
+/// Whether S is an AnyShapeOf.
+template <class S>
+inline constexpr bool is_any_shape = false;
+template <int Dim, class... Shapes>
+inline constexpr bool is_any_shape<AnyShapeOf<Dim, Shapes...>> = true;
+
+}  // namespace talus
