@@ -19,14 +19,19 @@ struct PrescribedMotion {
     std::function<Pose<Dim>(double)> pose;    ///< of time [s]
     std::function<Twist<Dim>(double)> twist;  ///< world axes, of time [s]
 
-    /// Stands still at `at`.
-    static PrescribedMotion fixed(const Pose<Dim>& at = {}) { return belt(at, {}); }
+    /// Any motion.
+    PrescribedMotion(std::function<Pose<Dim>(double)> pose_,
+                     std::function<Twist<Dim>(double)> twist_)
+        : pose(std::move(pose_)), twist(std::move(twist_)) {}
+
+    /// Stands still at `at`. Implicit: a pose is the motion of what does not move.
+    PrescribedMotion(const Pose<Dim>& at = {}) : PrescribedMotion(belt(at, {})) {}
 
     /// Stands still at `at` while its surface moves as part of a rigid body of twist `surface`: an
     /// endless belt, a turntable.
     static PrescribedMotion belt(const Pose<Dim>& at, const Twist<Dim>& surface) {
         require_finite("position of the obstacle", at.position);
-        return {[at](double) { return at; }, [surface](double) { return surface; }};
+        return PrescribedMotion([at](double) { return at; }, [surface](double) { return surface; });
     }
 
     /// Moves from `start` (at time 0) with constant velocity and spin.

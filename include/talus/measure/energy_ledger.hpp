@@ -126,7 +126,7 @@ class EnergyLedger {
                                   0.5 * (step.begin[i].angular + step.end[i].angular)};
             if (!step.applied.empty()) flows_.applied += applied_work(step, bodies, i, mean);
             if (!step.gyroscopic.empty() && bodies.inverse_inertia[i].minCoeff() > 0.0) {
-                const AngularVector<Dim> spin = mid_spin_body(bodies, i, mean.angular, step.h);
+                const AngularVector<Dim> spin = mid_spin_body(bodies, i, mean.angular, step);
                 flows_.gyroscopic +=
                     spin.dot(step.gyroscopic[i].cwiseQuotient(bodies.inverse_inertia[i]));
             }
@@ -147,10 +147,11 @@ class EnergyLedger {
 
     /// Body axes of the midpoint, from the state at the end: the body turned by h/2 at its end
     /// spin.
+    template <class Step>
     static AngularVector<Dim> mid_spin_body(const Bodies<Dim>& bodies, std::size_t i,
-                                            const AngularVector<Dim>& world, double h) {
+                                            const AngularVector<Dim>& world, const Step& step) {
         const Rotation<Dim> mid =
-            bodies.rotation[i] * Rotation<Dim>::exp(-0.5 * h * bodies.spin[i]);
+            bodies.rotation[i] * Rotation<Dim>::exp(-0.5 * step.h * bodies.spin[i]);
         return mid.spin_body(world);
     }
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/collision/concepts.hpp>
+#include <talus/collision/contact_set.hpp>
+#include <talus/collision/narrow_phase.hpp>
+#include <talus/dynamics/bodies.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// From placed shapes to the sorted set of contacts. Candidate pairs are found with boxes widened
+/// by a skin and kept until some body may have left its box; the contacts depend on the
+/// configuration alone, not on when the candidates were found.
+template <int Dim, class ShapeType, class Broad>
+requires SpaceDimension<Dim>
+class ContactDetection {
+  public:
+    /// Finds every contact with gap <= reach[a] + reach[b]. `radius[i]` bounds body i about its
+    /// centre, infinite for unbounded shapes; `skin` is the widening of new boxes: a larger one
+    /// gives more candidates, kept for longer. All in [m].
+    void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes,
+                std::span<const double> radius, double skin, std::span<const double> reach,
+                ContactSet<Dim>& contacts) {
+        if (left_a_box(bodies, radius, reach)) find_candidates(bodies, shapes, skin, reach);
+        contacts.clear();
+        for (const CandidatePair& pair : candidates_) {
+            const auto a = static_cast<std::size_t>(pair.a);
+            const auto b = static_cast<std::size_t>(pair.b);
+            points_.clear();
+            contact_points<Dim>(shapes[a], bodies.pose(a), shapes[b], bodies.pose(b),
+                                reach[a] + reach[b], points_);
+            std::sort(points_.begin(), points_.end(),
+                      [](const auto& x, const auto& y) { return x.feature < y.feature; });
+            for (const ContactPoint<Dim>& point : points_)
+                contacts.push_back(pair.a, pair.b, point);
+        }
+    }
+
+    /// Forgets the candidates: to be called when bodies were placed anew or shapes changed.
+    void reset() { box_.clear(); }
+
+    std::span<const CandidatePair> candidates() const { return candidates_; }
+
+  private:
+    bool left_a_box(const Bodies<Dim>& bodies, std::span<const double> radius,
+                    std::span<const double> reach) const {
+        if (box_.size() != reach.size()) return true;
+        for (std::size_t i = 0; i < reach.size(); ++i) {
+            const double turn = bodies.rotation[i].distance(rotation_[i]);
+            const double way =
+                (bodies.position[i] - position_[i]).norm() + (turn > 0.0 ? turn * radius[i] : 0.0);
+            if (!(way + reach[i] <= room_[i])) return true;
+        }
+        return false;
+    }
+
+    void find_candidates(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, double skin,
+                         std::span<const double> reach) {
+        const std::size_t n = bodies.count();
+        box_.resize(n);
+        room_.resize(n);
+        position_ = bodies.position;
+        rotation_ = bodies.rotation;
+        for (std::size_t i = 0; i < n; ++i) {
+            room_[i] = reach[i] + 0.5 * skin;
+            box_[i] = shapes[i].aabb(bodies.pose(i)).expanded(room_[i]);
+        }
+        broad_.find_pairs(
+            std::span<const Aabb<Dim>>(box_),
+            [&](BodyIndex i) { return bodies.is_obstacle(static_cast<std::size_t>(i)); },
+            candidates_);
+    }
+
+    Broad broad_;
+    std::vector<Aabb<Dim>> box_;
+    std::vector<Vector<Dim>> position_;    // when the boxes were made
+    std::vector<Rotation<Dim>> rotation_;  // when the boxes were made
+    std::vector<double> room_;             // widening of each box
+    std::vector<CandidatePair> candidates_;
+    std::vector<ContactPoint<Dim>> points_;
+};
+
+}  // namespace talus

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/dynamics/bodies.hpp>
+#include <talus/law/concepts.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace talus {
+
+/// Share of body i in the gaps that a gap-anticipating step of size h [s] looks at: how far its
+/// surface may travel in one step under its present velocity and twice gravity, zero for an
+/// obstacle at rest [m]. Bodies that impulses make faster than that meet new contacts as in the
+/// midpoint scheme.
+template <int Dim>
+double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bounding_radius,
+                          const Vector<Dim>& gravity, double h) {
+    const double spin = bodies.spin[i].norm();
+    const double turning =
+        spin > 0.0 && std::isfinite(bounding_radius) ? spin * bounding_radius : 0.0;
+    const double falling = bodies.is_obstacle(i) ? 0.0 : 2.0 * h * gravity.norm();
+    return h * (bodies.velocity[i].norm() + turning + falling);
+}
+
+/// What a gap adds to the normal velocity that the law sees: consecutive midpoints differ by h
+/// u_end, so `g/h + u_n >= 0` keeps the next midpoint free of overlap to first order [m/s]. An
+/// overlap adds nothing: it is not pushed out, so that no energy is made.
+inline double anticipated_velocity(double gap, double h) { return std::max(gap, 0.0) / h; }
+
+/// Whether a law bounces: its contacts are not anticipated, since stopping a body short of the
+/// surface would take the velocity that restitution has to return.
+template <int Dim, class Law>
+bool bounces(const Law& law) {
+    if constexpr (RestitutionLaw<Law, Dim>) {
+        Vector<Dim> approach = Vector<Dim>::Zero();
+        approach[0] = -1.0;
+        return law.restitution_shift(approach)[0] != 0.0;
+    } else {
+        return false;
+    }
+}
+
+}  // namespace talus

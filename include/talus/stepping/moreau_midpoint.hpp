@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/assembly/apply_impulses.hpp>
+#include <talus/assembly/contact_detection.hpp>
+#include <talus/assembly/contact_jacobian.hpp>
+#include <talus/assembly/free_velocity.hpp>
+#include <talus/assembly/impulse_cache.hpp>
+#include <talus/solver/concepts.hpp>
+#include <talus/stepping/gap_anticipating.hpp>
+#include <talus/stepping/step_data.hpp>
+#include <talus/stepping/system.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace talus {
+
+/// Which contacts a step treats as effective, and what their law is told.
+enum class Scheme {
+    midpoint,          ///< [Moreau] section 2.3: those with gap(t_mid, q_mid) <= contact_tolerance
+    gap_anticipating,  ///< also those that the step could close, with g/h + u_n in place of u_n
+};
+
+/// Choices within a step.
+struct StepParams {
+    Scheme scheme = Scheme::midpoint;  ///< the paper's
+    /// Gap below which a contact counts as closed [m]. 0 is the paper's rule; bodies placed
+    /// "exactly" in touch need about 1e-10 of their size, against rounding.
+    double contact_tolerance = 0.0;
+    Gyroscopic gyroscopic = Gyroscopic::explicit_term;  ///< the paper's
+    /// Widening of the boxes of the broad phase, as a fraction of the mean bounding radius of the
+    /// bodies. Affects speed alone.
+    double skin = 0.2;
+};
+
+/// Moves all free bodies along their present velocities for a time [s]: q + duration u.
+template <int Dim>
+void drift(Bodies<Dim>& bodies, double duration) {
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+        if (bodies.is_obstacle(i)) continue;
+        bodies.position[i] += duration * bodies.velocity[i];
+        bodies.rotation[i] =
+            (bodies.rotation[i] * Rotation<Dim>::exp(duration * bodies.spin[i])).normalized();
+    }
+}
+
+/// One step of [Moreau] section 2.3, equation (9), stage by stage; owns what the stages share.
+///
+///   q_mid  = q_begin + (h/2) u_begin             A, G, W, F, gaps taken at (t_mid, q_mid)
+///   active = { contacts with gap(t_mid, q_mid) <= 0 }
+///   u_free = u_begin + h A^-1 F(t_mid, q_mid, u_begin)
+///   law( mean of U_begin and U_end , r )  for every active contact,  u_end = u_free + A^-1 G^T r
+///   q_end  = q_mid + (h/2) u_end
+template <int Dim, class Law, class ShapeType, class Broad>
+class MoreauMidpoint {
+  public:
+    using SystemType = System<Dim, Law, ShapeType>;
+
+    /// Advances `system` from t_begin by h; `data` receives what happened.
+    template <ContactSolver<Dim, Law> Solver>
+    void step(SystemType& system, double t_begin, double h, const StepParams& params,
+              Solver& solver, StepData<Dim, Law>& data) {
+        data.t_begin = t_begin;
+        data.h = h;
+        data.correction_work = 0.0;
+        move_to_midpoint(system, data);
+        detect(system, params, data);
+        assemble(system, params, data);
+        solve(solver, data);
+        finish(system, data);
+    }
+
+    /// Impulses remembered for the warm start.
+    ImpulseCache<Dim>& impulse_cache() { return cache_; }
+    const ImpulseCache<Dim>& impulse_cache() const { return cache_; }
+    /// To be called when bodies were placed anew.
+    void reset_candidates() { detection_.reset(); }
+
+  private:
+    void move_to_midpoint(SystemType& system, StepData<Dim, Law>& data) {
+        Bodies<Dim>& bodies = system.bodies;
+        const std::size_t n = bodies.count();
+        drift(bodies, 0.5 * data.h);
+        system.place_obstacles(data.t_mid());
+        data.begin.resize(n);
+        for (std::size_t i = 0; i < n; ++i) data.begin[i] = bodies.twist(i);
+    }
+
+    void detect(SystemType& system, const StepParams& params, StepData<Dim, Law>& data) {
+        const std::size_t n = system.bodies.count();
+        reach_.assign(n, 0.5 * params.contact_tolerance);
+        if (params.scheme == Scheme::gap_anticipating)
+            for (std::size_t i = 0; i < n; ++i)
+                reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius[i],
+                                                     system.gravity, data.h);
+        detection_.detect(system.bodies, system.shapes, system.bounding_radius,
+                          params.skin * system.mean_bounding_radius(), reach_, data.contacts);
+        if (params.scheme == Scheme::gap_anticipating)
+            data.contacts.keep_if([&](std::size_t c) {
+                return data.contacts.gap[c] <= params.contact_tolerance ||
+                       !bounces<Dim>(law_of(system, data.contacts.key[c]));
+            });
+    }
+
+    void assemble(SystemType& system, const StepParams& params, StepData<Dim, Law>& data) {
+        assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
+        assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
+        evaluate_forces(system, params, data);
+        const std::size_t n = data.contact_count();
+        data.problem.free_velocity.resize(n);
+        data.problem.laws.clear();
+        for (std::size_t c = 0; c < n; ++c) {
+            const Law& law = law_of(system, data.contacts.key[c]);
+            data.problem.laws.push_back(law);
+            Vector<Dim>& u_free = data.problem.free_velocity[c];
+            u_free = relative_velocity<Dim>(data.problem.jacobian, c, data.end);
+            if constexpr (RestitutionLaw<Law, Dim>)
+                u_free += law.restitution_shift(
+                    relative_velocity<Dim>(data.problem.jacobian, c, data.begin));
+            if (params.scheme == Scheme::gap_anticipating)
+                u_free[0] += anticipated_velocity(data.contacts.gap[c], data.h);
+        }
+        data.impulse.resize(n);
+        data.recalled = cache_.recall(data.contacts, data.problem.jacobian, data.impulse,
+                                      last_h_ > 0.0 ? data.h / last_h_ : 1.0);
+    }
+
+    static const Law& law_of(const SystemType& system, const ContactKey& key) {
+        const auto& material = system.bodies.material;
+        return system.laws.at(material[static_cast<std::size_t>(key.a)],
+                              material[static_cast<std::size_t>(key.b)]);
+    }
+
+    void evaluate_forces(SystemType& system, const StepParams& params, StepData<Dim, Law>& data) {
+        const Bodies<Dim>& bodies = system.bodies;
+        const std::size_t n = bodies.count();
+        if (!system.forces.empty()) {
+            data.applied.assign(n, Wrench<Dim>{});
+            for (const auto& force : system.forces) force(data.t_mid(), bodies, data.applied);
+        } else {
+            data.applied.clear();
+        }
+        data.gyroscopic.clear();
+        data.end.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const AngularVector<Dim> change =
+                gyroscopic_change<Dim>(bodies, i, data.h, params.gyroscopic);
+            if (data.gyroscopic.empty() && !change.isZero(0.0))
+                data.gyroscopic.assign(n, AngularVector<Dim>::Zero());
+            if (!data.gyroscopic.empty()) data.gyroscopic[i] = change;
+            data.end[i] =
+                free_velocity<Dim>(bodies, i, data.h, system.gravity,
+                                   data.applied.empty() ? Wrench<Dim>{} : data.applied[i], change);
+        }
+    }
+
+    template <class Solver>
+    void solve(Solver& solver, StepData<Dim, Law>& data) {
+        data.report = solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
+        cache_.store(data.contacts, data.problem.jacobian, data.impulse);
+        last_h_ = data.h;
+    }
+
+    void finish(SystemType& system, StepData<Dim, Law>& data) {
+        Bodies<Dim>& bodies = system.bodies;
+        apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse,
+                            data.end);
+        for (std::size_t i = 0; i < bodies.count(); ++i) {
+            bodies.velocity[i] = data.end[i].linear;
+            bodies.spin[i] = bodies.rotation[i].spin_body(data.end[i].angular);
+        }
+        drift(bodies, 0.5 * data.h);
+        system.place_obstacles(data.t_end());
+    }
+
+    ContactDetection<Dim, ShapeType, Broad> detection_;
+    ImpulseCache<Dim> cache_;
+    std::vector<double> reach_;
+    double last_h_ = 0.0;
+};
+
+}  // namespace talus

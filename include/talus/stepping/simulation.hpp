@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/input.hpp>
+#include <talus/core/observer.hpp>
+#include <talus/solver/gauss_seidel.hpp>
+#include <talus/stepping/gap_correction.hpp>
+#include <talus/stepping/moreau_midpoint.hpp>
+
+#include <cstdint>
+#include <utility>
+
+namespace talus {
+
+/// Settings of a simulation.
+struct SimulationParams {
+    /// Step size [s]. Overlaps are at most h times the speed of approach; a grain of radius R that
+    /// falls from height H wants h well below R / sqrt(2 g H).
+    double h = 1e-3;
+    StepParams step;
+    GapCorrectionParams gap_correction;
+};
+
+/// A system and its clock. The solver, the broad phase, the law and the shapes are types of the
+/// user's choice; the defaults are those most runs want.
+///
+///     Simulation<3> sim({.mu = 0.4}, {.h = 1e-3});
+///     sim.system().gravity[2] = -9.81;
+///     sim.system().add_obstacle(HalfSpace<3>{...});
+///     sim.system().add(Ball<3>{0.005}, 2600.0, pose);
+///     sim.run(1.0, [](const auto& s) { return s.data().report.residual < 1.0; });
+template <int Dim, class Law = DefaultLaw<Dim>, class ShapeType = AnyShape<Dim>,
+          class Solver = GaussSeidel<Dim, Law>, class Broad = HierarchicalGrid<Dim>>
+requires SpaceDimension<Dim> && ContactLaw<Law, Dim> && ContactSolver<Solver, Dim, Law>
+class Simulation {
+  public:
+    using SystemType = System<Dim, Law, ShapeType>;
+    using Data = StepData<Dim, Law>;
+
+    /// Throws input_error if a setting is out of range.
+    explicit Simulation(SystemType system, SimulationParams params = {}, Solver solver = Solver())
+        : system_(std::move(system)), params_(params), solver_(std::move(solver)) {
+        require_positive("step size h", params_.h);
+        require_non_negative("contact tolerance", params_.step.contact_tolerance);
+        require_non_negative("skin", params_.step.skin);
+        require_in("fraction of the gap correction", params_.gap_correction.fraction, 0.0, 1.0);
+    }
+    /// One material.
+    explicit Simulation(const Law& law, SimulationParams params = {}, Solver solver = Solver())
+        : Simulation(SystemType(law), params, std::move(solver)) {}
+
+    /// Advances by one step; returns what it did.
+    const Data& step() {
+        integrator_.step(system_, time_, params_.h, params_.step, solver_, data_);
+        gap_correction_.apply(system_, params_.gap_correction, data_);
+        ++step_count_;
+        time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
+        return data_;
+    }
+
+    /// Makes the steps that bring the clock to `duration` [s] from now, to the nearest step.
+    /// `on_step(const Simulation&)` is called after each; if it returns bool, false stops the run.
+    template <class OnStep = Ignore>
+    void run(double duration, OnStep on_step = {}) {
+        require_non_negative("duration", duration);
+        const auto steps = static_cast<std::int64_t>(duration / params_.h + 0.5);
+        for (std::int64_t k = 0; k < steps; ++k) {
+            step();
+            if (!notify(on_step, std::as_const(*this))) return;
+        }
+    }
+
+    double time() const { return time_; }  ///< [s]
+    std::int64_t step_count() const { return step_count_; }
+    const SimulationParams& params() const { return params_; }
+    SystemType& system() { return system_; }
+    const SystemType& system() const { return system_; }
+    Solver& solver() { return solver_; }
+    const Solver& solver() const { return solver_; }
+    const Data& data() const { return data_; }  ///< of the last step
+    /// Impulses remembered for the warm start; clear it to make the next step start cold.
+    ImpulseCache<Dim>& impulse_cache() { return integrator_.impulse_cache(); }
+
+  private:
+    SystemType system_;
+    SimulationParams params_;
+    Solver solver_;
+    MoreauMidpoint<Dim, Law, ShapeType, Broad> integrator_;
+    GapCorrection<Dim> gap_correction_;
+    Data data_;
+    double time_start_ = 0.0;
+    double time_ = 0.0;
+    std::int64_t step_count_ = 0;
+};
+
+}  // namespace talus

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/collision/contact_set.hpp>
+#include <talus/core/types.hpp>
+#include <talus/problem/contact_problem.hpp>
+#include <talus/solver/report.hpp>
+#include <talus/spatial/twist.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// Everything one step computed, in the order of its stages: what observers read. Memory is reused
+/// from step to step.
+template <int Dim, class Law>
+struct StepData {
+    double t_begin = 0.0;  ///< [s]
+    double h = 0.0;        ///< step size [s]
+    double t_mid() const { return t_begin + 0.5 * h; }
+    double t_end() const { return t_begin + h; }
+
+    std::vector<Wrench<Dim>> applied;            ///< user forces; empty if there are none
+    std::vector<AngularVector<Dim>> gyroscopic;  ///< change of body-axis spin; empty if all zero
+    std::vector<Twist<Dim>> begin;               ///< u_begin, world axes
+    std::vector<Twist<Dim>> end;                 ///< u_end (u_free until the impulses are known)
+
+    ContactSet<Dim> contacts;          ///< at the midpoint configuration
+    ContactProblem<Dim, Law> problem;  ///< what the solver was given
+    std::vector<Vector<Dim>> impulse;  ///< r, local axes [N s]
+    std::size_t recalled = 0;          ///< contacts that began with a remembered impulse
+    SolveReport report;
+
+    /// Mechanical energy that a gap correction gave to gravity in this step [J].
+    double correction_work = 0.0;
+
+    std::size_t contact_count() const { return contacts.count(); }
+};
+
+}  // namespace talus

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/input.hpp>
+#include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/forces.hpp>
+#include <talus/dynamics/prescribed_motion.hpp>
+#include <talus/geometry/any_shape.hpp>
+#include <talus/geometry/principal_shape.hpp>
+#include <talus/law/coulomb.hpp>
+#include <talus/law/material_table.hpp>
+#include <talus/law/weighted_mean.hpp>
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace talus {
+
+/// Coulomb friction with restitution by the weighted mean: the law of a simulation unless the user
+/// asks for another.
+template <int Dim>
+using DefaultLaw = WeightedMean<Dim, Coulomb<Dim>>;
+
+/// Puts body i where its prescribed motion has it at time t [s].
+template <int Dim>
+void place(Bodies<Dim>& bodies, std::size_t i, const PrescribedMotion<Dim>& motion, double t) {
+    const Pose<Dim> pose = motion.pose(t);
+    const Twist<Dim> twist = motion.twist(t);
+    bodies.position[i] = pose.position;
+    bodies.rotation[i] = pose.rotation;
+    bodies.velocity[i] = twist.linear;
+    bodies.spin[i] = pose.rotation.spin_body(twist.angular);
+}
+
+/// What a simulation is of: bodies with their shapes, obstacles with their motions, forces, and the
+/// contact law of each pair of materials.
+template <int Dim, class Law = DefaultLaw<Dim>, class ShapeType = AnyShape<Dim>>
+requires SpaceDimension<Dim>
+struct System {
+    struct Obstacle {
+        BodyIndex body;
+        PrescribedMotion<Dim> motion;
+    };
+
+    Bodies<Dim> bodies;
+    std::vector<ShapeType> shapes;        ///< of each body, in the body's frame
+    std::vector<double> bounding_radius;  ///< of each shape about the body's centre [m]
+    std::vector<Obstacle> obstacles;
+    Vector<Dim> gravity = Vector<Dim>::Zero();  ///< acceleration [m/s^2]
+    std::vector<ForceField<Dim>> forces;
+    MaterialTable<Law> laws;
+
+    explicit System(MaterialTable<Law> laws_) : laws(std::move(laws_)) {}
+    /// One material: the same law everywhere.
+    explicit System(const Law& law) : laws(1, law) {}
+
+    /// Adds a homogeneous body of the given density [kg/m^Dim]. `pose` places the shape as it was
+    /// given; the body's own frame becomes the principal one. `twist` is of the mass centre.
+    template <SolidShape<Dim> S>
+    BodyIndex add(const S& shape, double density, const Pose<Dim>& pose,
+                  const Twist<Dim>& twist = {}, MaterialIndex material = 0) {
+        require_positive("density", density);
+        check_material(material);
+        const auto principal = in_principal_frame<Dim>(shape);
+        const Inertia<Dim> inertia{density * principal.volume, density * principal.frame.moments};
+        return attach(bodies.add(inertia, pose * principal.frame.pose, twist, material),
+                      principal.shape);
+    }
+
+    /// Adds a body of the given inertia, whose shape is given in its principal frame.
+    template <Shape<Dim> S>
+    BodyIndex add(const S& shape, const Inertia<Dim>& inertia, const Pose<Dim>& pose,
+                  const Twist<Dim>& twist = {}, MaterialIndex material = 0) {
+        check_material(material);
+        return attach(bodies.add(inertia, pose, twist, material), shape);
+    }
+
+    /// Adds an obstacle that moves as prescribed; a pose in place of a motion makes it stand still.
+    template <Shape<Dim> S>
+    BodyIndex add_obstacle(const S& shape, PrescribedMotion<Dim> motion = {},
+                           MaterialIndex material = 0) {
+        check_material(material);
+        const BodyIndex body =
+            attach(bodies.add_obstacle(motion.pose(0.0), motion.twist(0.0), material), shape);
+        obstacles.push_back({body, std::move(motion)});
+        return body;
+    }
+
+    /// Puts all obstacles where they are at time t [s].
+    void place_obstacles(double t) {
+        for (const Obstacle& obstacle : obstacles)
+            place(bodies, static_cast<std::size_t>(obstacle.body), obstacle.motion, t);
+    }
+
+    /// Mean over the free bodies of bounded shape; 0 if there are none [m].
+    double mean_bounding_radius() const {
+        return bounded_count_ > 0 ? bounded_radius_sum_ / static_cast<double>(bounded_count_) : 0.0;
+    }
+
+  private:
+    void check_material(MaterialIndex material) const {
+        if (material < 0 || material >= laws.material_count())
+            detail::reject("material", material,
+                           "an index below " + std::to_string(laws.material_count()) +
+                               ", the number of materials");
+    }
+    template <class S>
+    BodyIndex attach(BodyIndex body, const S& shape) {
+        const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
+        bounding_radius.push_back(box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()
+                                                : std::numeric_limits<double>::infinity());
+        shapes.emplace_back(shape);
+        if (box.bounded() && !bodies.is_obstacle(static_cast<std::size_t>(body))) {
+            bounded_radius_sum_ += bounding_radius.back();
+            ++bounded_count_;
+        }
+        return body;
+    }
+
+    double bounded_radius_sum_ = 0.0;
+    std::size_t bounded_count_ = 0;
+};
+
+}  // namespace talus

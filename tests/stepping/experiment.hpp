@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/geometry/ball.hpp>
+#include <talus/geometry/half_space.hpp>
+#include <talus/stepping/simulation.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+/// Set-ups shared by the validation cases that run as unit tests. Gravity acts along minus the last
+/// axis, the floor is x_last = 0, units are SI.
+namespace experiment {
+
+inline constexpr double g = 9.81;
+inline constexpr double pi = std::numbers::pi;
+
+/// Class R of the catalogue: rounding, relative to the scale of the case.
+inline constexpr double class_r = 1e-12;
+/// Tolerance of the solver where class R or S is asked.
+inline constexpr double solver_tolerance = 1e-14;
+/// Bodies placed in touch are so up to rounding of their coordinates, all of order 1 m.
+inline constexpr double touching = 1e-10;
+
+template <int Dim>
+using V = talus::Vector<Dim>;
+template <int Dim>
+using W = talus::AngularVector<Dim>;
+
+template <int Dim>
+V<Dim> up() {
+    return V<Dim>::Unit(Dim - 1);
+}
+
+/// A vector in the plane of the first and the last axis.
+template <int Dim>
+V<Dim> in_plane(double first, double last) {
+    V<Dim> v = V<Dim>::Zero();
+    v[0] = first;
+    v[Dim - 1] = last;
+    return v;
+}
+
+/// The spin that rolls a body towards + the first axis on the floor, of magnitude w. In the plane
+/// that is clockwise, in space a turn about the second axis.
+template <int Dim>
+W<Dim> rolling_spin(double w) {
+    if constexpr (Dim == 2)
+        return W<2>(-w);
+    else
+        return W<3>(0.0, w, 0.0);
+}
+
+/// Inertia factor kap of I = kap m r^2: disc 1/2, sphere 2/5.
+template <int Dim>
+inline constexpr double kap = Dim == 2 ? 0.5 : 0.4;
+
+template <int Dim>
+talus::Inertia<Dim> round_inertia(double mass, double radius) {
+    return {mass, W<Dim>::Constant(kap<Dim> * mass * radius * radius)};
+}
+
+template <int Dim>
+talus::Inertia<Dim> point_mass(double mass) {
+    return {mass, W<Dim>::Constant(std::numeric_limits<double>::infinity())};
+}
+
+template <int Dim>
+talus::DefaultLaw<Dim> law(double mu, double e_n = 0.0, double e_t = 0.0) {
+    return {{mu}, e_n, e_t};
+}
+
+/// A simulation with a tight solver, gravity and (if asked) a floor as body 0.
+template <int Dim>
+talus::Simulation<Dim> simulation(const talus::DefaultLaw<Dim>& contact_law, double h,
+                                  const V<Dim>& gravity, bool floor = true) {
+    talus::SimulationParams params;
+    params.h = h;
+    params.step.contact_tolerance = touching;
+    talus::GaussSeidel<Dim, talus::DefaultLaw<Dim>> solver;
+    solver.params.tolerance = solver_tolerance;
+    solver.params.max_sweeps = 100000;
+    talus::Simulation<Dim> sim(contact_law, params, solver);
+    sim.system().gravity = gravity;
+    if (floor) sim.system().add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
+    return sim;
+}
+
+/// Largest coordinate of a vector.
+template <class Vec>
+double largest(const Vec& v) {
+    return v.cwiseAbs().maxCoeff();
+}
+
+}  // namespace experiment
