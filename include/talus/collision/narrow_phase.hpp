@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/collision/ball_contacts.hpp>
 #include <talus/collision/contact_point.hpp>
-#include <talus/collision/simple_pairs.hpp>
+#include <talus/collision/core_contacts.hpp>
+#include <talus/collision/half_space_contacts.hpp>
+#include <talus/collision/support_contacts.hpp>
 #include <talus/core/check.hpp>
 #include <talus/geometry/any_shape_of.hpp>
+#include <talus/geometry/compound.hpp>
 
 #include <cmath>
 #include <span>
@@ -19,6 +23,10 @@ namespace talus {
 template <int Dim, class A, class B>
 struct PairContacts {};
 
+template <int Dim, class A, class B>
+void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
+                    double margin, std::vector<ContactPoint<Dim>>& out);
+
 namespace detail {
 
 template <int Dim, class A, class B>
@@ -26,6 +34,31 @@ concept HasPairContacts = requires(const A& a, const B& b, const Pose<Dim>& pose
                                    std::vector<ContactPoint<Dim>>& out) {
     PairContacts<Dim, A, B>::append(a, pose, b, pose, 0.0, out);
 };
+
+/// The contacts of B with A, mirrored.
+template <int Dim, class A, class B>
+void append_mirrored(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
+                     double margin, std::vector<ContactPoint<Dim>>& out) {
+    const std::size_t first = out.size();
+    contact_points<Dim>(b, pose_b, a, pose_a, margin, out);
+    mirror<Dim>(std::span(out).subspan(first));
+}
+
+/// The contacts of every child of A with B, with the child's number in the codes.
+template <int Dim, class B>
+void append_compound_contacts(const Compound<Dim>& a, const Pose<Dim>& pose_a, const B& b,
+                              const Pose<Dim>& pose_b, double margin,
+                              std::vector<ContactPoint<Dim>>& out) {
+    const Aabb<Dim> reach = b.aabb(pose_b).expanded(std::max(margin, 0.0));
+    for (std::size_t i = 0; i < a.children().size(); ++i) {
+        const Vector<Dim> centre = pose_a.point_world(a.centre(i));
+        if (!reach.overlaps(Aabb<Dim>{centre, centre}.expanded(a.bound(i)))) continue;
+        const std::size_t first = out.size();
+        contact_points<Dim>(a.children()[i], pose_a, b, pose_b, margin, out);
+        for (ContactPoint<Dim>& c : std::span(out).subspan(first))
+            c.feature = with_child_of_a(c.feature, static_cast<std::uint32_t>(i));
+    }
+}
 
 }  // namespace detail
 
@@ -37,6 +70,7 @@ template <int Dim, class A, class B>
 void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
                     double margin, std::vector<ContactPoint<Dim>>& out) {
     TALUS_CHECK(std::isfinite(margin), "the margin of a contact query is finite");
+    using Wall = HalfSpace<Dim>;
     if constexpr (is_any_shape<A>) {
         std::visit([&](const auto& s) { contact_points<Dim>(s, pose_a, b, pose_b, margin, out); },
                    a.held());
@@ -45,12 +79,21 @@ void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<
                    b.held());
     } else if constexpr (detail::HasPairContacts<Dim, A, B>) {
         PairContacts<Dim, A, B>::append(a, pose_a, b, pose_b, margin, out);
-    } else if constexpr (detail::HasPairContacts<Dim, B, A>) {
-        const std::size_t first = out.size();
-        PairContacts<Dim, B, A>::append(b, pose_b, a, pose_a, margin, out);
-        mirror<Dim>(std::span(out).subspan(first));
-    } else {
-        append_contacts<Dim>(a, pose_a, b, pose_b, margin, out);
+    } else if constexpr (detail::HasPairContacts<Dim, B, A> ||
+                         (std::same_as<A, Wall> && !std::same_as<B, Wall>)) {
+        detail::append_mirrored<Dim>(a, pose_a, b, pose_b, margin, out);
+    } else if constexpr (std::same_as<A, Compound<Dim>>) {
+        detail::append_compound_contacts<Dim>(a, pose_a, b, pose_b, margin, out);
+    } else if constexpr (std::same_as<B, Compound<Dim>>) {
+        detail::append_mirrored<Dim>(a, pose_a, b, pose_b, margin, out);
+    } else if constexpr (std::same_as<A, Ball<Dim>> && std::same_as<B, Ball<Dim>>) {
+        append_ball_contact<Dim>(a, pose_a, b, pose_b, margin, out);
+    } else if constexpr (CoreShape<A, Dim> && CoreShape<B, Dim>) {
+        append_core_contacts<Dim>(a.core(), pose_a, b.core(), pose_b, margin, out);
+    } else if constexpr (CoreShape<A, Dim> && std::same_as<B, Wall>) {
+        append_half_space_contacts<Dim>(a.core(), pose_a, b, pose_b, margin, out);
+    } else if constexpr (!std::same_as<A, Wall>) {
+        append_support_contact<Dim>(a, pose_a, b, pose_b, margin, out);
     }
 }
 

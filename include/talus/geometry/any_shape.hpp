@@ -3,14 +3,21 @@
 
 #include <talus/geometry/any_shape_of.hpp>
 #include <talus/geometry/ball.hpp>
+#include <talus/geometry/box.hpp>
+#include <talus/geometry/capsule.hpp>
+#include <talus/geometry/compound.hpp>
+#include <talus/geometry/convex_polytope.hpp>
 #include <talus/geometry/half_space.hpp>
 
 namespace talus {
 
 /// Any shape of talus. For a list with shapes of one's own use AnyShapeOf.
 template <int Dim>
-using AnyShape = AnyShapeOf<Dim, Ball<Dim>, HalfSpace<Dim>>;
+using AnyShape = AnyShapeOf<Dim, Ball<Dim>, HalfSpace<Dim>, Capsule<Dim>, Box<Dim>,
+                            ConvexPolytope<Dim>, Compound<Dim>>;
 
 static_assert(SolidShape<AnyShape<2>, 2> && SolidShape<AnyShape<3>, 3>);
+static_assert(sizeof(AnyShape<2>) <= 48 && sizeof(AnyShape<3>) <= 48,
+              "shapes are copied freely: large data is shared");
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 
 #include <talus/core/input.hpp>
 #include <talus/geometry/concepts.hpp>
+#include <talus/geometry/convex_core.hpp>
 
 #include <numbers>
 
@@ -20,6 +21,11 @@ class Ball {
 
     double radius() const { return radius_; }              ///< [m]
     const Vector<Dim>& centre() const { return centre_; }  ///< in the frame of the shape [m]
+
+    /// The centre as a core of one vertex.
+    CoreView<Dim> core() const {
+        return {{&centre_, 1}, {}, {}, {}, {}, {}, {}, radius_, centre_, radius_};
+    }
 
     Aabb<Dim> aabb(const Pose<Dim>& pose) const {
         const Vector<Dim> c = pose.point_world(centre_);

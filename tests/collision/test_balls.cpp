@@ -6,7 +6,7 @@
 
 #include "common/dimensions.hpp"
 
-BOOST_AUTO_TEST_SUITE(collision_simple_pairs)
+BOOST_AUTO_TEST_SUITE(collision_balls)
 
 namespace {
 const double rounding = 1e-15;  // a few operations on numbers of order one
