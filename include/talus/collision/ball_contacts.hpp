@@ -14,8 +14,8 @@ template <int Dim>
 void append_ball_contact(const Ball<Dim>& a, const Pose<Dim>& pose_a, const Ball<Dim>& b,
                          const Pose<Dim>& pose_b, double margin,
                          std::vector<ContactPoint<Dim>>& out) {
-    const Vector<Dim> centre_b = pose_b.point_world(b.centre());
-    const Vector<Dim> apart = pose_a.point_world(a.centre()) - centre_b;
+    const Vector<Dim> centre_b = b.centre_world(pose_b);
+    const Vector<Dim> apart = a.centre_world(pose_a) - centre_b;
     const double reach = a.radius() + b.radius() + margin;
     const double distance2 = apart.squaredNorm();
     if (reach < 0.0 || !(distance2 <= reach * reach)) return;

@@ -3,6 +3,7 @@
 
 #include <talus/collision/separating_axis.hpp>
 
+#include <array>
 #include <optional>
 
 namespace talus {
@@ -82,33 +83,50 @@ class EdgeContacts {
         return best;
     }
 
-    /// Each end of either edge with the other edge, if it lies beside that and the edges are
-    /// parallel enough. Rounded shapes get the normal of each place, sharp ones the common axis.
+    /// An edge in the frame of A, running up along a common direction.
+    struct Run {
+        std::array<Vector<3>, 2> ends;
+        std::array<std::uint32_t, 2> vertices;
+        std::uint32_t edge;
+
+        Vector<3> nearest(const Vector<3>& x) const {
+            const Vector<3> along = ends[1] - ends[0];
+            const double t = along.dot(x - ends[0]) / along.squaredNorm();
+            return ends[0] + std::clamp(t, 0.0, 1.0) * along;
+        }
+        Feature vertex(std::size_t k) const { return {FeatureKind::vertex, vertices[k]}; }
+        Feature whole() const { return {FeatureKind::edge, edge}; }
+    };
+
+    /// The two ends of the overlap of edges i of A and j of B, if they are parallel enough: each is
+    /// an end of one of them, in doubt of A's, with the place on the other edge nearest to it.
     void add_ends(std::uint32_t i, std::uint32_t j) requires(Dim == 3) {
         const CoreEdge &ea = p_.a.edges[i], &eb = p_.b.edges[j];
-        const std::array a{p_.a.vertices[ea.tail], p_.a.vertices[ea.head]};
-        const std::array b{p_.in_a(p_.b.vertices[eb.tail]), p_.in_a(p_.b.vertices[eb.head])};
-        const Vector<3> u = (a[1] - a[0]).normalized(), v = (b[1] - b[0]).normalized();
+        const Run a{{p_.a.vertices[ea.tail], p_.a.vertices[ea.head]}, {ea.tail, ea.head}, i};
+        Run b{{p_.in_a(p_.b.vertices[eb.tail]), p_.in_a(p_.b.vertices[eb.head])},
+              {eb.tail, eb.head},
+              j};
+        const Vector<3> u = (a.ends[1] - a.ends[0]).normalized();
+        Vector<3> v = (b.ends[1] - b.ends[0]).normalized();
         const double most = p_.rounding() > 0.0 ? NarrowPhaseTolerance::parallel_rounded
                                                 : NarrowPhaseTolerance::preference;
         if (u.cross(v).norm() > most) return;
-        for (std::size_t k = 0; k < 2; ++k) {
-            const Vector<3> foot = b[0] + v.dot(a[k] - b[0]) * v;
-            if (beside(foot, b))
-                add_end(a[k], foot, {FeatureKind::vertex, k == 0 ? ea.tail : ea.head},
-                        {FeatureKind::edge, j});
+        if (u.dot(v) < 0.0) {
+            v = -v;
+            std::swap(b.ends[0], b.ends[1]);
+            std::swap(b.vertices[0], b.vertices[1]);
         }
+        const Vector<3> up = u + v - (u + v).dot(axis_.normal) * axis_.normal;
+        const double doubt = NarrowPhaseTolerance::preference * p_.size * up.norm();
+        if (up.dot(a.ends[1] - b.ends[0]) < -doubt || up.dot(b.ends[1] - a.ends[0]) < -doubt)
+            return;
         for (std::size_t k = 0; k < 2; ++k) {
-            const Vector<3> foot = a[0] + u.dot(b[k] - a[0]) * u;
-            if (beside(foot, a))
-                add_end(foot, b[k], {FeatureKind::edge, i},
-                        {FeatureKind::vertex, k == 0 ? eb.tail : eb.head});
+            const double beyond = (k == 0 ? 1.0 : -1.0) * up.dot(b.ends[k] - a.ends[k]);
+            if (beyond <= doubt)
+                add_end(a.ends[k], b.nearest(a.ends[k]), a.vertex(k), b.whole());
+            else
+                add_end(a.nearest(b.ends[k]), b.ends[k], a.whole(), b.vertex(k));
         }
-    }
-    bool beside(const Vector<3>& x, const std::array<Vector<3>, 2>& edge) const {
-        const double reach = NarrowPhaseTolerance::lateral * p_.size;
-        const Vector<3> along = (edge[1] - edge[0]).normalized();
-        return along.dot(x - edge[0]) >= -reach && along.dot(edge[1] - x) >= -reach;
     }
     void add_end(const Vector<3>& on_a, const Vector<3>& on_b, Feature a, Feature b) {
         const Vector<3> apart = on_a - on_b;

@@ -3,6 +3,7 @@
 
 #include <talus/collision/core_pair.hpp>
 
+#include <array>
 #include <limits>
 
 namespace talus {
@@ -23,7 +24,11 @@ class FaceContacts {
           up_b_(pair.direction_in_b(up_)),
           tolerance_(NarrowPhaseTolerance::lateral * pair.size),
           limit_(limit),
-          sink_(sink) {}
+          sink_(sink) {
+        if constexpr (Dim == 3)
+            for (std::size_t k = 0; k < std::min(loop_.size(), sides_.size()); ++k)
+                sides_[k] = computed_side(k);
+    }
 
     /// Adds the contacts; returns the least core gap met, infinite if nothing of B is over the
     /// face.
@@ -59,6 +64,9 @@ class FaceContacts {
 
     /// Unit vector in the reference face, out of it across side k.
     Vector<3> out_of_side(std::size_t k) const requires(Dim == 3) {
+        return k < sides_.size() ? sides_[k] : computed_side(k);
+    }
+    Vector<3> computed_side(std::size_t k) const requires(Dim == 3) {
         return (corner(k + 1) - corner(k)).cross(up_).normalized();
     }
     const Vector<Dim>& corner(std::size_t k) const {
@@ -175,6 +183,7 @@ class FaceContacts {
     std::uint32_t face_;
     std::span<const std::uint32_t> loop_;
     Vector<Dim> up_, up_b_;  ///< normal of the reference face, in the frames of A and B
+    std::array<Vector<Dim>, Dim == 3 ? 8 : 0> sides_;  ///< the first few, asked for often
     double tolerance_, limit_;
     const ContactSink<Dim>& sink_;
     double least_gap_ = std::numeric_limits<double>::infinity();

@@ -32,9 +32,12 @@ constexpr FeatureId feature_code(const Feature& a, const Feature& b) {
 /// The same code with the two shapes exchanged.
 constexpr FeatureId mirrored(FeatureId id) { return {id.code << 32 | id.code >> 32}; }
 
-/// The same code for a touching child of A's: a compound's child speaks as if it were alone.
+/// The code of a child of A's, or of B's, from the code it gets as if it were alone.
 constexpr FeatureId with_child_of_a(FeatureId id, std::uint32_t child) {
     return {id.code | std::uint64_t{child} << 52};
+}
+constexpr FeatureId with_child_of_b(FeatureId id, std::uint32_t child) {
+    return {id.code | std::uint64_t{child} << 20};
 }
 
 /// Turns contacts of B with A into contacts of A with B.

@@ -10,7 +10,9 @@
 #include <talus/geometry/any_shape_of.hpp>
 #include <talus/geometry/compound.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <span>
 #include <variant>
 #include <vector>
@@ -44,20 +46,42 @@ void append_mirrored(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose
     mirror<Dim>(std::span(out).subspan(first));
 }
 
+/// Calls `visit(i, child)` for every child of `compound` that may come within `margin` of `box`.
+template <int Dim, class Visit>
+void for_children_near(const Compound<Dim>& compound, const Pose<Dim>& pose, const Aabb<Dim>& box,
+                       double margin, const Visit& visit) {
+    const Aabb<Dim> reach = box.expanded(std::max(margin, 0.0));
+    for (std::size_t i = 0; i < compound.children().size(); ++i) {
+        const Vector<Dim> centre = pose.point_world(compound.centre(i));
+        if (reach.overlaps(Aabb<Dim>{centre, centre}.expanded(compound.bound(i))))
+            visit(static_cast<std::uint32_t>(i), compound.children()[i]);
+    }
+}
+
 /// The contacts of every child of A with B, with the child's number in the codes.
 template <int Dim, class B>
-void append_compound_contacts(const Compound<Dim>& a, const Pose<Dim>& pose_a, const B& b,
-                              const Pose<Dim>& pose_b, double margin,
-                              std::vector<ContactPoint<Dim>>& out) {
-    const Aabb<Dim> reach = b.aabb(pose_b).expanded(std::max(margin, 0.0));
-    for (std::size_t i = 0; i < a.children().size(); ++i) {
-        const Vector<Dim> centre = pose_a.point_world(a.centre(i));
-        if (!reach.overlaps(Aabb<Dim>{centre, centre}.expanded(a.bound(i)))) continue;
+void append_children_of_a(const Compound<Dim>& a, const Pose<Dim>& pose_a, const B& b,
+                          const Pose<Dim>& pose_b, double margin,
+                          std::vector<ContactPoint<Dim>>& out) {
+    for_children_near(a, pose_a, b.aabb(pose_b), margin, [&](std::uint32_t i, const auto& child) {
         const std::size_t first = out.size();
-        contact_points<Dim>(a.children()[i], pose_a, b, pose_b, margin, out);
+        contact_points<Dim>(child, pose_a, b, pose_b, margin, out);
         for (ContactPoint<Dim>& c : std::span(out).subspan(first))
-            c.feature = with_child_of_a(c.feature, static_cast<std::uint32_t>(i));
-    }
+            c.feature = with_child_of_a(c.feature, i);
+    });
+}
+
+/// The contacts of A with every child of B.
+template <int Dim, class A>
+void append_children_of_b(const A& a, const Pose<Dim>& pose_a, const Compound<Dim>& b,
+                          const Pose<Dim>& pose_b, double margin,
+                          std::vector<ContactPoint<Dim>>& out) {
+    for_children_near(b, pose_b, a.aabb(pose_a), margin, [&](std::uint32_t i, const auto& child) {
+        const std::size_t first = out.size();
+        contact_points<Dim>(a, pose_a, child, pose_b, margin, out);
+        for (ContactPoint<Dim>& c : std::span(out).subspan(first))
+            c.feature = with_child_of_b(c.feature, i);
+    });
 }
 
 }  // namespace detail
@@ -83,9 +107,9 @@ void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<
                          (std::same_as<A, Wall> && !std::same_as<B, Wall>)) {
         detail::append_mirrored<Dim>(a, pose_a, b, pose_b, margin, out);
     } else if constexpr (std::same_as<A, Compound<Dim>>) {
-        detail::append_compound_contacts<Dim>(a, pose_a, b, pose_b, margin, out);
+        detail::append_children_of_a<Dim>(a, pose_a, b, pose_b, margin, out);
     } else if constexpr (std::same_as<B, Compound<Dim>>) {
-        detail::append_mirrored<Dim>(a, pose_a, b, pose_b, margin, out);
+        detail::append_children_of_b<Dim>(a, pose_a, b, pose_b, margin, out);
     } else if constexpr (std::same_as<A, Ball<Dim>> && std::same_as<B, Ball<Dim>>) {
         append_ball_contact<Dim>(a, pose_a, b, pose_b, margin, out);
     } else if constexpr (CoreShape<A, Dim> && CoreShape<B, Dim>) {

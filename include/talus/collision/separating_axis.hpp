@@ -3,6 +3,7 @@
 
 #include <talus/collision/core_pair.hpp>
 
+#include <array>
 #include <limits>
 
 namespace talus {
@@ -90,23 +91,51 @@ inline void set_nearest_points_of_lines(const PlacedEdge& a, const PlacedEdge& b
     axis.point_b = axis.point_a - axis.separation * axis.normal;
 }
 
+/// Whether a direction at this edge can beat `least`: n.toward for n on the edge's arc, which is at
+/// most the larger of the values at the arc's ends over the cosine of half its angle.
+inline bool can_reach(const CoreView<3>& core, const CoreEdge& e, const Vector<3>& toward,
+                      double least) {
+    if (e.left == CoreEdge::none || least <= 0.0) return true;
+    const Vector<3>&l = core.normals[e.left], &r = core.normals[e.right];
+    const double most = std::max(toward.dot(l), toward.dot(r));
+    return most > 0.0 && 2.0 * most >= least * (l + r).norm();
+}
+
+inline bool try_edge_pair(const PlacedEdge& a, const PlacedEdge& b, const Vector<3>& apart,
+                          double limit, double size, SeparatingAxis<3>& axis) {
+    if (!arcs_cross(a, b)) return true;
+    const Vector<3> n = edge_normal(a, b, apart);
+    if (n.isZero(0.0)) return true;
+    const double s = n.dot(a.tail - b.tail);
+    if (s > limit) return false;
+    if (improves(axis, s, size)) {
+        axis.normal = n;
+        axis.separation = s;
+        set_nearest_points_of_lines(a, b, axis);
+    }
+    return true;
+}
+
+/// Tries the pairs of edges. A ball inside each core makes separation(n) at most
+/// n.(centre A - centre B) minus both radii: edges that cannot beat the axis so far are left out.
 inline bool try_edges(const CorePair<3>& p, double limit, SeparatingAxis<3>& axis) {
+    constexpr std::size_t batch = 32;
     const Vector<3> apart = p.a.centre - p.in_a(p.b.centre);
-    for (const CoreEdge& edge_b : p.b.edges) {
-        PlacedEdge b = placed_edge(p.b, edge_b);
-        b = {p.in_a(b.tail), p.rotation * b.direction, p.rotation * b.left, p.rotation * b.right,
-             b.bare};
-        for (const CoreEdge& edge_a : p.a.edges) {
-            const PlacedEdge a = placed_edge(p.a, edge_a);
-            if (!arcs_cross(a, b)) continue;
-            const Vector<3> n = edge_normal(a, b, apart);
-            const double s = n.dot(a.tail - b.tail);
-            if (n.isZero(0.0)) continue;
-            if (s > limit) return false;
-            if (!improves(axis, s, p.size)) continue;
-            axis.normal = n;
-            axis.separation = s;
-            set_nearest_points_of_lines(a, b, axis);
+    const Vector<3> apart_b = p.direction_in_b(apart);
+    const double least = axis.separation + p.a.inner + p.b.inner;
+    std::array<PlacedEdge, batch> edges;
+    for (std::size_t next = 0; next < p.a.edges.size();) {
+        std::size_t count = 0;
+        for (; next < p.a.edges.size() && count < batch; ++next)
+            if (can_reach(p.a, p.a.edges[next], -apart, least))
+                edges[count++] = placed_edge(p.a, p.a.edges[next]);
+        for (const CoreEdge& e : p.b.edges) {
+            if (!can_reach(p.b, e, apart_b, least)) continue;
+            PlacedEdge b = placed_edge(p.b, e);
+            b = {p.in_a(b.tail), p.rotation * b.direction, p.rotation * b.left,
+                 p.rotation * b.right, b.bare};
+            for (std::size_t i = 0; i < count; ++i)
+                if (!try_edge_pair(edges[i], b, apart, limit, p.size, axis)) return false;
         }
     }
     return true;

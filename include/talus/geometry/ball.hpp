@@ -22,13 +22,18 @@ class Ball {
     double radius() const { return radius_; }              ///< [m]
     const Vector<Dim>& centre() const { return centre_; }  ///< in the frame of the shape [m]
 
+    /// Where the centre is when placed [m]; at once for the balls of bodies, centred on their
+    /// frame.
+    Vector<Dim> centre_world(const Pose<Dim>& pose) const {
+        return centre_.isZero(0.0) ? pose.position : pose.point_world(centre_);
+    }
     /// The centre as a core of one vertex.
     CoreView<Dim> core() const {
         return {{&centre_, 1}, {}, {}, {}, {}, {}, {}, radius_, centre_, radius_};
     }
 
     Aabb<Dim> aabb(const Pose<Dim>& pose) const {
-        const Vector<Dim> c = pose.point_world(centre_);
+        const Vector<Dim> c = centre_world(pose);
         return Aabb<Dim>{c, c}.expanded(radius_);
     }
     Vector<Dim> support(const Vector<Dim>& d) const { return centre_ + radius_ * d.normalized(); }

@@ -44,6 +44,7 @@ struct CoreView {
     double radius;       ///< rounding [m]
     Vector<Dim> centre;  ///< of a ball that holds core and rounding [m]
     double bound;        ///< radius of that ball [m]
+    double inner = 0.0;  ///< radius of a ball about `centre` inside the core, 0 if none is [m]
 
     std::size_t face_count() const { return normals.size(); }
     std::span<const std::uint32_t> face(std::size_t i) const {
@@ -87,8 +88,8 @@ class ConvexCore {
     }
 
     CoreView<Dim> view() const {
-        return {vertices_,   normals_, offsets_, loop_begin_, loops_,
-                loop_edges_, edges_,   radius_,  centre_,     bound_};
+        return {vertices_, normals_, offsets_, loop_begin_, loops_, loop_edges_,
+                edges_,    radius_,  centre_,  bound_,      inner_};
     }
     /// The same core seen from the frame in which its present frame has this pose.
     ConvexCore placed(const Pose<Dim>& pose) const {
@@ -156,6 +157,9 @@ class ConvexCore {
         double reach2 = 0.0;
         for (const auto& v : vertices_) reach2 = std::max(reach2, (v - centre_).squaredNorm());
         bound_ = std::sqrt(reach2) + radius_;
+        inner_ = normals_.empty() ? 0.0 : bound_;
+        for (std::size_t f = 0; f < normals_.size(); ++f)
+            inner_ = std::min(inner_, std::max(0.0, offsets_[f] - normals_[f].dot(centre_)));
     }
 
     std::vector<Vector<Dim>> vertices_, normals_;
@@ -164,7 +168,7 @@ class ConvexCore {
     std::vector<CoreEdge> edges_;
     double radius_;
     Vector<Dim> centre_;
-    double bound_;
+    double bound_, inner_;
 };
 
 /// A shape that is a rounded core: what the narrow phase treats by its vertices, edges and faces.
