@@ -35,7 +35,7 @@ DIMENSION_BRANCH = [
     (re.compile(r"\bDimensionTag\s*<"), "dispatch on DimensionTag"),
     (re.compile(r"template\s*<\s*>[^;{(]*?<\s*[23]\b"), "specialisation for one dimension"),
 ]
-STEP_SIZE = re.compile(r"\b(?:double|Real|float)\s+h\s*[,)=]")
+STEP_SIZE = re.compile(r"\b(?:double|Real|float)\s+h\s*[,)]")
 FORMATTING = re.compile(r"#include <cstdio>|\bsnprintf\s*\(")
 OUTPUT = re.compile(
     r"#include <(?:iostream|ostream|istream|fstream|sstream|cstdio|stdio\.h|filesystem)>"
@@ -46,7 +46,7 @@ UNFINISHED = re.compile(r"\b(?:TODO|FIXME|XXX|HACK)\b")
 # One word per thing: the banned synonym and the word of the house.
 VOCABULARY = {
     r"\bdt\b|\btime_?step\b|\bstep_size\b": "h",
-    r"\bpenetration_depth\b|\bseparation\b": "gap (penetration, of a whole configuration)",
+    r"\bpenetration_depth\b": "gap",
     r"\bpercussions?\b|\breactions?\b": "impulse (or mean_reaction for r / h)",
     r"\bfriction_coeff?\w*\b": "mu",
     r"\brestitution_coeff?\w*\b|\bcoeff?_of_restitution\b": "restitution",

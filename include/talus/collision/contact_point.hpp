@@ -14,10 +14,11 @@ namespace talus {
 template <int Dim>
 requires SpaceDimension<Dim>
 struct ContactPoint {
-    Vector<Dim> point;   ///< one place for both bodies, half-way between the two surfaces [m]
-    Vector<Dim> normal;  ///< unit, world axes, from B towards A
-    double gap;          ///< signed distance along the normal [m]
-    FeatureId feature;   ///< touching features, of A first
+    /// One place for both bodies, half-way between the two surfaces [m].
+    Vector<Dim> point = Vector<Dim>::Zero();
+    Vector<Dim> normal = Vector<Dim>::Zero();  ///< unit, world axes, from B towards A
+    double gap = 0.0;                          ///< signed distance along the normal [m]
+    FeatureId feature = {};                    ///< touching features, of A first
 };
 
 }  // namespace talus

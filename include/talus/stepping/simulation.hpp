@@ -18,8 +18,8 @@ struct SimulationParams {
     /// Step size [s]. Overlaps are at most h times the speed of approach; a grain of radius R that
     /// falls from height H wants h well below R / sqrt(2 g H).
     double h = 1e-3;
-    StepParams step;
-    GapCorrectionParams gap_correction;
+    StepParams step = {};
+    GapCorrectionParams gap_correction = {};
 };
 
 /// A system and its clock. The solver, the broad phase, the law and the shapes are types of the

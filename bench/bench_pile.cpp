@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSL-1.0
+//
+// Whole steps of piles of balls: discs in the plane, spheres in space, 1,000 to 14,000 grains. Each
+// pile first settles for 0.3 s; then steps are timed, each to the residual 1e-4, warm (the usual
+// step) and cold (impulses forgotten: a hard solve). Beside the time: contacts, sweeps, contact
+// updates per second of the whole step, the worst residual met, and the bytes that a grain takes in
+// all.
+#include <talus/sample/granulometry.hpp>
+#include <talus/sample/random_scene.hpp>
+#include <talus/stepping/simulation.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <malloc.h>
+#include <map>
+#include <memory>
+
+namespace {
+
+constexpr double h = 1e-3;          // [s]
+constexpr double settling = 0.3;    // [s]
+constexpr double tolerance = 1e-4;  // on the residual
+
+std::size_t bytes_in_use() {
+    const auto info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+template <int Dim>
+struct Pile {
+    std::unique_ptr<talus::Simulation<Dim>> sim;
+    double bytes_per_grain = 0.0;
+};
+
+/// A pile about as high as wide, settled; made once per size.
+template <int Dim>
+Pile<Dim>& settled_pile(std::int64_t grains) {
+    static std::map<std::int64_t, Pile<Dim>> piles;
+    Pile<Dim>& pile = piles[grains];
+    if (pile.sim) return pile;
+    using namespace talus;
+    const UniformRadii radii(0.004, 0.006);
+    RandomSceneParams params;
+    params.grain_count = static_cast<std::size_t>(grains);
+    params.width = 2.2 * radii.mean() * std::pow(static_cast<double>(grains), 1.0 / Dim);
+    const auto scene = random_scene<Dim>(params, radii);
+    const std::size_t before = bytes_in_use();
+    SimulationParams settings;
+    settings.h = h;
+    settings.step.scheme = Scheme::gap_anticipating;
+    pile.sim = std::make_unique<Simulation<Dim>>(DefaultLaw<Dim>{{scene.mu}}, settings);
+    auto& system = pile.sim->system();
+    const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
+    system.gravity = -scene.gravity * up;
+    system.add_obstacle(HalfSpace<Dim>(up, 0.0));
+    for (int axis = 0; axis + 1 < Dim; ++axis) {
+        system.add_obstacle(HalfSpace<Dim>(Vector<Dim>::Unit(axis), 0.0));
+        system.add_obstacle(HalfSpace<Dim>(-Vector<Dim>::Unit(axis), -scene.box_size[axis]));
+    }
+    for (const auto& grain : scene.grains)
+        system.add(Ball<Dim>{grain.radius}, scene.density, {grain.position, {}});
+    pile.sim->solver().params.tolerance = 1e-3;
+    pile.sim->run(settling);
+    pile.sim->solver().params.tolerance = tolerance;
+    pile.sim->solver().params.max_sweeps = 20000;
+    pile.sim->step();
+    pile.bytes_per_grain =
+        static_cast<double>(bytes_in_use() - before) / static_cast<double>(grains);
+    return pile;
+}
+
+template <int Dim, bool warm>
+void step(benchmark::State& state) {
+    Pile<Dim>& pile = settled_pile<Dim>(state.range(0));
+    double contacts = 0.0, sweeps = 0.0, updates = 0.0, residual = 0.0;
+    for (auto _ : state) {
+        if (!warm) pile.sim->impulse_cache().clear();
+        const auto& data = pile.sim->step();
+        contacts += static_cast<double>(data.contact_count());
+        sweeps += data.report.sweeps;
+        updates += static_cast<double>(data.contact_count()) * data.report.sweeps;
+        residual = std::max(residual, data.report.residual);
+    }
+    using benchmark::Counter;
+    state.counters["contacts"] = Counter(contacts, Counter::kAvgIterations);
+    state.counters["sweeps"] = Counter(sweeps, Counter::kAvgIterations);
+    state.counters["updates/s"] = Counter(updates, Counter::kIsRate);
+    state.counters["residual"] = residual;
+    state.counters["bytes/grain"] = pile.bytes_per_grain;
+}
+
+BENCHMARK(step<2, true>)->Arg(1000)->Arg(4000)->Arg(14000)->Unit(benchmark::kMillisecond);
+BENCHMARK(step<3, true>)->Arg(1000)->Arg(4000)->Arg(14000)->Unit(benchmark::kMillisecond);
+BENCHMARK(step<2, false>)
+    ->Arg(1000)
+    ->Arg(4000)
+    ->Arg(14000)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+BENCHMARK(step<3, false>)
+    ->Arg(1000)
+    ->Arg(4000)
+    ->Arg(14000)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+
+}  // namespace
+
+BENCHMARK_MAIN();
