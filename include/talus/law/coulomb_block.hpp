@@ -93,15 +93,20 @@ template <int Dim>
 requires SpaceDimension<Dim>
 inline Vector<Dim> CoulombBlock<Dim>::diagonal_solution(double mu, const Vector<Dim>& u,
                                                         const Vector<Dim>& r) const {
-    Vector<Dim> result = Vector<Dim>::Zero();
+    // By components: two tangents in one packed register cost more in shuffles than they save.
+    Vector<Dim> result;
+    double square = 0.0;
+    for (int d = 1; d < Dim; ++d) {
+        result[d] = r[d] - u[d] * tangent_inverse_;
+        square += result[d] * result[d];
+    }
     const double r_n = r[0] - u[0] * normal_inverse_;
-    if (r_n <= 0.0) return result;
-    Tangent r_t = r.template tail<Dim - 1>() - u.template tail<Dim - 1>() * tangent_inverse_;
+    const bool open = r_n <= 0.0;
     const double limit = mu * r_n;
-    const double square = r_t.squaredNorm();
-    if (square > limit * limit) r_t *= limit / std::sqrt(square);
-    result[0] = r_n;
-    result.template tail<Dim - 1>() = r_t;
+    double factor = square > limit * limit ? limit / std::sqrt(square) : 1.0;
+    if (open) factor = 0.0;
+    result[0] = open ? 0.0 : r_n;
+    for (int d = 1; d < Dim; ++d) result[d] *= factor;
     return result;
 }
 

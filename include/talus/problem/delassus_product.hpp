@@ -13,6 +13,20 @@
 
 namespace talus {
 
+namespace detail {
+
+/// x, kept by itself: stops the compiler from storing it as one half of a pair of numbers. The next
+/// contact of the same body loads them singly, or in other pairs, and would wait for such a store
+/// to reach memory. Worth a tenth of the time of a sweep, or more (bench_kernels).
+inline double unpaired(double x) {
+#if defined(__GNUC__) && defined(__SSE2__)
+    asm("" : "+x"(x));
+#endif
+    return x;
+}
+
+}  // namespace detail
+
 /// Whether every inverse inertia tensor of `m` is exactly a multiple of the identity (balls and
 /// cubes, and everything in the plane). Then DelassusProduct<Dim, double> applies.
 template <int Dim>
@@ -28,7 +42,9 @@ bool has_scalar_inertia(const InverseMass<Dim>& m) {
 /// `Inertia` is how a body's inverse inertia is stored: AngularMatrix<Dim> for any body, double
 /// where has_scalar_inertia; the first is the oracle of the second. Contacts are packed in one row
 /// each (in space 128 bytes, two cache lines), bodies in one line each (in space 64 bytes with
-/// scalar inertia: one cache line, 120 with a tensor), so that a sweep reads contacts as a stream.
+/// scalar inertia: one cache line, 128 with a tensor), so that a sweep reads contacts as a stream.
+/// The arithmetic is written out by components: packed in pairs, vectors of three cost more in
+/// shuffles and waits than they save.
 template <int Dim, class Inertia = AngularMatrix<Dim>>
 requires std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, double>
 class DelassusProduct {
@@ -110,17 +126,33 @@ class DelassusProduct {
     static Vector<Dim> velocity(const Row& c, const std::vector<Body>& bodies) {
         const Body& a = bodies[static_cast<std::size_t>(c.a)];
         const Body& b = bodies[static_cast<std::size_t>(c.b)];
-        return c.frame * (a.linear - b.linear + cross<Dim>(a.angular, c.arm_a) -
-                          cross<Dim>(b.angular, c.arm_b));
+        const Vector<Dim> turning_a = cross<Dim>(a.angular, c.arm_a);
+        const Vector<Dim> turning_b = cross<Dim>(b.angular, c.arm_b);
+        Vector<Dim> world, u;
+        for (int d = 0; d < Dim; ++d)
+            world[d] = (a.linear[d] - b.linear[d]) + (turning_a[d] - turning_b[d]);
+        for (int k = 0; k < Dim; ++k) {
+            u[k] = c.frame(k, 0) * world[0];
+            for (int d = 1; d < Dim; ++d) u[k] += c.frame(k, d) * world[d];
+        }
+        return u;
     }
     static void add(const Row& c, const Vector<Dim>& dr, std::vector<Body>& bodies) {
-        Body& a = bodies[static_cast<std::size_t>(c.a)];
-        Body& b = bodies[static_cast<std::size_t>(c.b)];
-        const Vector<Dim> impulse = c.frame.transpose() * dr;
-        a.linear += a.inverse_mass * impulse;
-        a.angular += a.inverse_inertia * moment<Dim>(c.arm_a, impulse);
-        b.linear -= b.inverse_mass * impulse;
-        b.angular -= b.inverse_inertia * moment<Dim>(c.arm_b, impulse);
+        Vector<Dim> impulse;
+        for (int d = 0; d < Dim; ++d) {
+            impulse[d] = c.frame(0, d) * dr[0];
+            for (int k = 1; k < Dim; ++k) impulse[d] += c.frame(k, d) * dr[k];
+        }
+        push(bodies[static_cast<std::size_t>(c.a)], 1.0, impulse, c.arm_a);
+        push(bodies[static_cast<std::size_t>(c.b)], -1.0, impulse, c.arm_b);
+    }
+    static void push(Body& x, double sign, const Vector<Dim>& impulse, const Vector<Dim>& arm) {
+        const double mobility = sign * x.inverse_mass;
+        const AngularVector<Dim> turn = (sign * x.inverse_inertia) * moment<Dim>(arm, impulse);
+        for (int d = 0; d < Dim; ++d)
+            x.linear[d] = detail::unpaired(x.linear[d] + mobility * impulse[d]);
+        for (int d = 0; d < rotation_dof<Dim>; ++d)
+            x.angular[d] = detail::unpaired(x.angular[d] + turn[d]);
     }
     void accumulate(std::span<const Vector<Dim>> r, std::vector<Body>& bodies) const {
         for (Body& x : bodies) {

@@ -155,12 +155,18 @@ class GaussSeidel {
     double sweep(const Task<W>& task) {
         double change = 0.0;
         sequence_.next([&](std::size_t i) {
-            const Vector<Dim> u = task.w.velocity(i) + task.free_velocity[i];
+            Vector<Dim> u = task.w.velocity(i);
+            for (int d = 0; d < Dim; ++d) u[d] += task.free_velocity[i][d];
             const Vector<Dim> r = talus::improved<Dim>(task.laws[i], prepared_[i], u, task.r[i]);
-            const Vector<Dim> dr = r - task.r[i];
-            change += dr.squaredNorm() / measure_.effective_mass(i);
+            Vector<Dim> dr;
+            double square = 0.0;
+            for (int d = 0; d < Dim; ++d) {
+                dr[d] = r[d] - task.r[i][d];
+                square += dr[d] * dr[d];
+                task.r[i][d] = r[d];
+            }
+            change += square / measure_.effective_mass(i);
             task.w.add(i, dr);
-            task.r[i] = r;
         });
         return std::sqrt(change);
     }
