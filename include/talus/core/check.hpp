@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 
@@ -22,10 +21,10 @@ class input_error : public std::invalid_argument {
 
 namespace detail {
 
-[[noreturn]] inline void fail_check(const char* expression, const char* sentence,
-                                    std::source_location where) {
-    throw precondition_error(std::string(where.file_name()) + ":" + std::to_string(where.line()) +
-                             ": " + sentence + " [" + expression + "]");
+[[noreturn]] inline void fail_check(const char* expression, const char* sentence, const char* file,
+                                    int line) {
+    throw precondition_error(std::string(file) + ":" + std::to_string(line) + ": " + sentence +
+                             " [" + expression + "]");
 }
 
 }  // namespace detail
@@ -37,7 +36,6 @@ namespace detail {
 #define TALUS_CHECK(condition, sentence) static_cast<void>(0)
 #else
 #define TALUS_CHECK(condition, sentence) \
-    ((condition)                         \
-         ? static_cast<void>(0)          \
-         : ::talus::detail::fail_check(#condition, sentence, std::source_location::current()))
+    ((condition) ? static_cast<void>(0)  \
+                 : ::talus::detail::fail_check(#condition, sentence, __FILE__, __LINE__))
 #endif

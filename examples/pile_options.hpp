@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/input.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+namespace pile {
+
+/// What the command line asks for.
+struct Options {
+    std::string scene;   ///< file; empty: generate
+    int dim = 0;         ///< 0: both
+    std::string shape;   ///< empty: polygons in 2D, spheres in 3D
+    double count = 400;  ///< grains to generate
+    double seed = 1;
+    std::optional<double> mu;  ///< friction coefficient; scene's or 0.4
+    double restitution = 0.0;
+    double duration = 1.0;    ///< [s]
+    double step = 5e-4;       ///< h [s]
+    double tolerance = 1e-4;  ///< on the residual
+    double max_sweeps = 20000;
+    std::string scheme = "anticipating";
+    double correction = 0.0;       ///< share of overlaps removed per step
+    std::string out = "pile-out";  ///< folder
+    std::string json;              ///< file; empty: none
+    bool quiet = false;
+};
+
+/// Adds a numeric option that accepts [low, high] alone and says so when it gets something else.
+template <class Number>
+void add_number(CLI::App& app, const std::string& name, Number& value, double low, double high,
+                const std::string& help) {
+    app.add_option_function<std::string>(
+           name,
+           [&value, name, low, high](const std::string& text) {
+               char* end = nullptr;
+               const double x = std::strtod(text.c_str(), &end);
+               if (end == text.c_str() || *end != '\0' || !(x >= low && x <= high))
+                   throw talus::input_error(name + " is '" + text + "', but must be a number in [" +
+                                            talus::detail::text_of(low) + ", " +
+                                            talus::detail::text_of(high) + "]");
+               value = x;
+           },
+           help)
+        ->type_name("NUMBER");
+}
+
+inline void require_one_of(const std::string& name, const std::string& value,
+                           std::initializer_list<const char*> choices) {
+    std::string list;
+    for (const char* choice : choices) {
+        if (value == choice) return;
+        list += (list.empty() ? "" : ", ") + std::string(choice);
+    }
+    throw talus::input_error(name + " is '" + value + "', but must be one of " + list);
+}
+
+inline void check(const Options& o) {
+    for (const auto& [name, value] :
+         {std::pair{"--count", o.count}, {"--seed", o.seed}, {"--max-sweeps", o.max_sweeps}})
+        if (value != std::floor(value))
+            throw talus::input_error(std::string(name) + " is " + talus::detail::text_of(value) +
+                                     ", but must be a whole number");
+    require_one_of("--scheme", o.scheme, {"anticipating", "midpoint"});
+    if (o.shape.empty()) return;
+    require_one_of("--shape", o.shape, {"disc", "polygon", "sphere", "polyhedron"});
+    const bool plane = o.shape == "disc" || o.shape == "polygon";
+    if (o.dim != 0 && plane != (o.dim == 2))
+        throw talus::input_error("--shape is '" + o.shape + "', but --dim " +
+                                 std::to_string(o.dim) + " has " +
+                                 (o.dim == 2 ? "disc, polygon" : "sphere, polyhedron"));
+}
+
+/// Reads the command line; nothing if it asked for help, which was then printed. Throws
+/// input_error, one sentence, on anything wrong.
+inline std::optional<Options> read_options(int argc, char** argv) {
+    Options o;
+    double dim = 0;
+    CLI::App app(
+        "Grains settle under gravity in a box. With no options a few hundred polygons settle in "
+        "the\n"
+        "plane and then as many spheres in space. Every answer comes with a certificate: how well "
+        "the\n"
+        "exact laws of contact and friction are obeyed, overlaps, where the energy went, and "
+        "whether the\n"
+        "floor carries the weight; and with pictures.\n",
+        "pile");
+    app.footer(
+        "Examples:\n"
+        "  pile --dim 2 --shape disc --count 1000\n"
+        "  pile --scene examples/scenes/polyhedra.txt --duration 0.6 --json certificate.json\n"
+        "Units are SI. The format of scenes is described in include/talus/io/README.md.\n");
+    app.add_option("--scene", o.scene, "scene file to settle, instead of a generated pile");
+    add_number(app, "--dim", dim, 2, 3, "dimension of a generated pile: 2 or 3 (both)");
+    app.add_option("--shape", o.shape, "disc, polygon (2D), sphere, polyhedron (3D)");
+    add_number(app, "--count", o.count, 1, 1e6, "grains to generate (400)");
+    add_number(app, "--seed", o.seed, 0, 1e15, "of the random grains (1)");
+    add_number(app, "--mu", o.mu, 0, 1e3, "friction coefficient (the scene's; 0.4)");
+    add_number(app, "--restitution", o.restitution, 0, 1, "of all contacts, normal (0)");
+    add_number(app, "--duration", o.duration, 1e-9, 1e6, "time to settle [s] (1)");
+    add_number(app, "--step", o.step, 1e-9, 1e3,
+               "step size [s] (5e-4: a fraction of a grain's time to fall its own radius)");
+    add_number(app, "--tolerance", o.tolerance, 1e-14, 1,
+               "on the residual of every step (1e-4); 1e-8 is for the patient");
+    add_number(app, "--max-sweeps", o.max_sweeps, 1, 1e9,
+               "sweeps allowed per step (20000); steps that miss the tolerance are counted");
+    app.add_option("--scheme", o.scheme,
+                   "anticipating (contacts may close their gap but not more) or midpoint (the "
+                   "paper's)");
+    add_number(app, "--correction", o.correction, 0, 1,
+               "share of overlaps removed per step, positions only (0)");
+    app.add_option("--out", o.out, "folder for pictures and VTK files (pile-out)");
+    app.add_option("--json", o.json, "file for the certificate and the figures of every step");
+    app.add_flag("--quiet", o.quiet, "no progress bar");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success&) {
+        std::fputs(app.help().c_str(), stdout);
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        throw talus::input_error(std::string(error.what()) + " (pile --help lists the options)");
+    }
+    if (dim != 0 && dim != 2 && dim != 3)
+        throw talus::input_error("--dim is " + talus::detail::text_of(dim) +
+                                 ", but must be 2 or 3");
+    o.dim = static_cast<int>(dim);
+    check(o);
+    return o;
+}
+
+}  // namespace pile

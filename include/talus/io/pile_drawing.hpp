@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/input.hpp>
+#include <talus/io/drawing_scales.hpp>
+
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// A grain of the plane to draw.
+struct DrawnGrain {
+    Vector<2> centre = Vector<2>::Zero();  ///< [m]
+    double radius = 0.0;                   ///< of the disc, or of the farthest corner [m]
+    double load = 0.0;                     ///< that fills it with grey [N]
+    std::vector<Vector<2>> outline = {};   ///< corners in the world [m]; none for a disc
+};
+
+/// A pile of the plane to draw, as plain numbers.
+struct PileDrawing {
+    double box_width = 0.0;  ///< walls at x = 0 and here, floor at y = 0 [m]
+    std::vector<DrawnGrain> grains;
+    std::vector<DrawnContact<2>> contacts;
+    std::string title;
+    std::vector<std::string> captions;  ///< lines under the picture
+};
+
+namespace detail {
+
+inline double mean_diameter(const std::vector<DrawnGrain>& grains) {
+    double sum = 0.0;
+    for (const auto& g : grains) sum += 2.0 * g.radius;
+    return sum / static_cast<double>(grains.size());
+}
+
+inline void require_drawable(const PileDrawing& pile) {
+    require_positive("width of the drawn box [m]", pile.box_width);
+    require_in("drawn grains", static_cast<double>(pile.grains.size()), 1.0, 1e7);
+    for (std::size_t i = 0; i < pile.grains.size(); ++i) {
+        const DrawnGrain& g = pile.grains[i];
+        const std::string name = "drawn grain " + std::to_string(i);
+        require_positive(name + ": radius [m]", g.radius);
+        require_in(name + ": load [N]", g.load, -1e300, 1e300);
+        require_finite(name + ": centre", g.centre);
+        for (const auto& p : g.outline) require_finite(name + ": outline", p);
+    }
+    require_drawable<2>(pile.contacts);
+}
+
+inline void draw_grains(Svg& svg, const PileDrawing& pile, const GreyScale& grey, double outline) {
+    svg.open_group({.stroke = "#4a4a4a", .stroke_width = outline, .round = true});
+    for (const auto& g : pile.grains) {
+        const SvgStyle style{.fill = svg_grey(grey.lightness(g.load))};
+        if (g.outline.empty())
+            svg.circle(g.centre, g.radius, style);
+        else
+            svg.polygon(g.outline, style);
+    }
+    svg.close_group();
+}
+
+inline void draw_chains(Svg& svg, const PileDrawing& pile, const WidthScale& widths) {
+    svg.open_group({.fill = "none", .stroke = chain_colour, .opacity = 0.92, .round = true});
+    for (const std::size_t i : by_force<2>(pile.contacts)) {
+        const auto& c = pile.contacts[i];
+        // Below a thousandth of the strongest a segment is thinner than ink.
+        if (c.force <= 1e-3 * widths.strongest) continue;
+        const std::vector<Vector<2>> path{c.from, c.point, c.to};
+        svg.polyline(path, {.stroke_width = widths.width(c.force)});
+    }
+    svg.close_group();
+}
+
+}  // namespace detail
+
+/// The picture of a pile in Moreau's manner: grains grey by load, forces as red segments from
+/// centre through contact to centre, as wide as they are strong; scales beside, words above and
+/// below. Throws input_error naming what is not finite.
+inline std::string pile_svg(const PileDrawing& pile, const DrawingParams& params = {}) {
+    detail::require_drawable(pile);
+    double top = 0.0;
+    std::vector<double> loads;
+    for (const auto& g : pile.grains) {
+        top = std::max(top, g.centre[1] + g.radius);
+        loads.push_back(g.load);
+    }
+    const double diameter = detail::mean_diameter(pile.grains);
+    // Words are sized by the page, which is about as wide as the box and the scales together.
+    const double em = 0.021 * std::max(pile.box_width, top);
+    const double wall = 0.45 * em, right = pile.box_width + 14.0 * em;
+    const double title_room = 4.5 * em;
+    const double caption_room = (2.2 + 1.5 * static_cast<double>(pile.captions.size())) * em;
+    const double legend_height = 22.0 * em;
+    const double roof = std::max(top + em, legend_height);
+    Svg svg({-2.0 * em, -caption_room - wall}, {right, roof + title_room}, params.width_pixels);
+
+    const detail::GreyScale grey{detail::quantile(loads, params.full_share), params.darkest,
+                                 params.lightest};
+    const detail::WidthScale widths{detail::strongest_force<2>(pile.contacts),
+                                    params.strongest_width * diameter};
+    detail::draw_grains(svg, pile, grey, 0.035 * diameter);
+    detail::draw_chains(svg, pile, widths);
+
+    const double w = 0.5 * wall, wall_top = top + em;
+    const std::vector<Vector<2>> box{
+        {-w, wall_top}, {-w, -w}, {pile.box_width + w, -w}, {pile.box_width + w, wall_top}};
+    svg.polyline(box, {.fill = "none", .stroke = "#1a1a1a", .stroke_width = wall});
+
+    const double column = pile.box_width + 3.0 * em;
+    detail::draw_width_key(svg, {column, 10.0 * em}, em, widths, params);
+    detail::draw_grey_key(svg, {column, 12.5 * em}, 7.0 * em, em, grey, params);
+    detail::draw_words(svg, {-w, roof + 1.8 * em}, {-w, -wall - 1.8 * em}, em, pile.title,
+                       pile.captions);
+    return svg.str();
+}
+
+}  // namespace talus
