@@ -84,11 +84,33 @@ void sweeps(benchmark::State& state, bool scalar_inertia) {
     state.counters["contacts"] = contacts;
     state.counters["per_ball"] = contacts / static_cast<double>(pile.balls);
     state.counters["residual"] = residual;
+    // Read or written per visit: the operator's row, the prepared law, two vectors, mu and rho.
+    state.counters["bytes/contact"] =
+        128.0 + sizeof(talus::CoulombBlock<3>) + 2.0 * sizeof(Vec) + 2.0 * sizeof(double);
 }
 void sweeps_of_balls(benchmark::State& state) { sweeps(state, true); }
 void sweeps_of_any_bodies(benchmark::State& state) { sweeps(state, false); }
 BENCHMARK(sweeps_of_balls)->Arg(10)->Arg(14)->Arg(19)->Unit(benchmark::kMillisecond);
 BENCHMARK(sweeps_of_any_bodies)->Arg(14)->Unit(benchmark::kMillisecond);
+
+/// One-contact solves of Coulomb's law with blocks that couple normal and tangents, W prepared.
+void local_solves(benchmark::State& state) {
+    std::mt19937_64 random(13);
+    std::normal_distribution<double> normal;
+    std::vector<talus::CoulombBlock<3>> blocks;
+    std::vector<Vec> b;
+    for (int k = 0; k < 1000; ++k) {
+        const talus::Matrix<3> g = talus::Matrix<3>::NullaryExpr([&] { return normal(random); });
+        blocks.emplace_back(g * g.transpose() + talus::Matrix<3>::Identity());
+        b.push_back(Vec::NullaryExpr([&] { return normal(random); }));
+    }
+    for (auto _ : state)
+        for (std::size_t k = 0; k < b.size(); ++k)
+            benchmark::DoNotOptimize(blocks[k].general_solution(0.4, b[k]));
+    state.counters["solves/s"] = benchmark::Counter(static_cast<double>(b.size()),
+                                                    benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(local_solves);
 
 /// Balls of sizes 1 to `ratio`, equal volume per octave of size, at random in a cube filled to 0.6
 /// (overlapping): candidates per body stay the same as the number of bodies grows.

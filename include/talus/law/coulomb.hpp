@@ -6,6 +6,7 @@
 #include <talus/law/coulomb_block.hpp>
 #include <talus/law/friction_cone.hpp>
 
+#include <string>
 #include <string_view>
 
 namespace talus {

@@ -4,6 +4,7 @@
 #include <talus/core/input.hpp>
 #include <talus/law/prepared.hpp>
 
+#include <string>
 #include <string_view>
 
 namespace talus {
