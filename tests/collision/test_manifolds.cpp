@@ -169,6 +169,45 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_capsule_lying_on_a_box_touches_at_two_places, D,
     }
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_rocking_capsule_keeps_codes_even_over_an_edge, D, dimensions) {
+    constexpr int Dim = D::value;
+    for (const double shift : {0.0, 0.6}) {
+        std::set<std::uint64_t> rest;
+        for (const double angle : {0.0, -5e-4, -1e-6, -1e-12, 1e-12, 1e-6, 5e-4}) {
+            talus::Pose<Dim> at = raised<Dim>(0.75);
+            at.position[0] = shift;
+            at.rotation = tilt<Dim>(angle);
+            const auto found =
+                contacts<Dim>(talus::Capsule<Dim>(0.4, 0.25), at, cube<Dim>(0.5), {}, 0.01);
+            if (rest.empty()) rest = codes<Dim>(found);
+            BOOST_CHECK_EQUAL(found.size(), 2u);
+            BOOST_CHECK(codes<Dim>(found) == rest);
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_scaled_scene_has_scaled_contacts, D, dimensions) {
+    constexpr int Dim = D::value;
+    const double scale = 0x1.0p-20;  // a power of two: then even the rounding is the same
+    for (int kind_a = 0; kind_a < 4; ++kind_a)
+        for (int kind_b = 0; kind_b < 4; ++kind_b)
+            for (unsigned seed = 0; seed < 10; ++seed) {
+                const auto scene = [&](double unit) {
+                    random_geometry::Generator g(seed);
+                    const auto a = random_geometry::convex_shape<Dim>(g, kind_a, unit);
+                    const auto b = random_geometry::convex_shape<Dim>(g, kind_b, unit);
+                    return contacts<Dim>(a, random_geometry::pose<Dim>(g, 1.5 * unit), b, {},
+                                         0.1 * unit);
+                };
+                const auto large = scene(1.0), small = scene(scale);
+                BOOST_REQUIRE_EQUAL(large.size(), small.size());
+                for (std::size_t i = 0; i < large.size(); ++i) {
+                    BOOST_CHECK(large[i].feature == small[i].feature);
+                    BOOST_CHECK_SMALL(large[i].gap - small[i].gap / scale, 1e-12);
+                }
+            }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(parallel_capsules_touch_at_two_places_crossed_ones_at_one, D,
                               dimensions) {
     constexpr int Dim = D::value;

@@ -141,10 +141,10 @@ class PairTester {
     void check_same(const Contacts& found, const Contacts& other, double ratio, Map map) const {
         BOOST_CHECK_EQUAL(found.size(), other.size());
         for (const auto& c : found) {
-            const auto [point, normal] = map(c);
+            const std::pair<Vector, Vector> mapped = map(c);
             const bool met = std::ranges::any_of(other, [&](const auto& o) {
-                return (o.point - point).norm() <= preference * scale_ * ratio &&
-                       (o.normal - normal).norm() <= 2e-2 &&
+                return (o.point - mapped.first).norm() <= preference * scale_ * ratio &&
+                       (o.normal - mapped.second).norm() <= 2e-2 &&
                        std::abs(o.gap - ratio * c.gap) <=
                            (preference * scale_ + slant * std::abs(c.gap)) * ratio;
             });

@@ -203,9 +203,10 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(bad_sizes_are_refused, D, dimensions) {
     constexpr int Dim = D::value;
     BOOST_CHECK_THROW(talus::Capsule<Dim>(0.0, 1.0), talus::input_error);
     BOOST_CHECK_THROW(talus::Capsule<Dim>(1.0, -1.0), talus::input_error);
-    BOOST_CHECK_THROW(talus::Box<Dim>(talus::Vector<Dim>::Zero()), talus::input_error);
+    const talus::Vector<Dim> zero = talus::Vector<Dim>::Zero();
+    BOOST_CHECK_THROW(talus::Box<Dim>{zero}, talus::input_error);
     BOOST_CHECK_THROW(talus::Compound<Dim>({}), talus::input_error);
-    BOOST_CHECK_THROW(talus::HalfSpace<Dim>(talus::Vector<Dim>::Zero()), talus::input_error);
+    BOOST_CHECK_THROW(talus::HalfSpace<Dim>{zero}, talus::input_error);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(overlapping_children_may_be_given_their_true_mass, D, dimensions) {

@@ -25,8 +25,9 @@ struct NarrowPhaseTolerance {
     /// contacts attain the best separation: so a rocking box keeps face normals. The gap is exact
     /// along the normal, and longer than the shortest way by at most half the square of this.
     static constexpr double alignment = 1e-2;
-    /// The same for rounded shapes [rad], whose normals turn continuously anyway.
-    static constexpr double alignment_rounded = 1e-4;
+    /// The same for rounded shapes [rad], smaller since there the excess is of the distance of the
+    /// cores: 5e-7 of the rounding.
+    static constexpr double alignment_rounded = 1e-3;
     /// Edges of rounded shapes this nearly parallel [rad] touch at both ends of their overlap.
     static constexpr double parallel_rounded = 0.1;
 };

@@ -94,6 +94,8 @@ template <int Dim, class A, class B>
 void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
                     double margin, std::vector<ContactPoint<Dim>>& out) {
     TALUS_CHECK(std::isfinite(margin), "the margin of a contact query is finite");
+    TALUS_CHECK(pose_a.position.allFinite() && pose_b.position.allFinite(),
+                "the poses of a contact query are finite");
     using Wall = HalfSpace<Dim>;
     if constexpr (is_any_shape<A>) {
         std::visit([&](const auto& s) { contact_points<Dim>(s, pose_a, b, pose_b, margin, out); },
