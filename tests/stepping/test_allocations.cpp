@@ -2,46 +2,18 @@
 // A steady step allocates nothing. Counts every operator new of this program.
 #include <boost/test/unit_test.hpp>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "common/allocation_counter.hpp"
 #include "common/dimensions.hpp"
 #include "heap.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-
-void* counted(std::size_t bytes, std::size_t alignment) {
-    ++allocations;
-    const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-    void* p = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
-    if (p == nullptr) throw std::bad_alloc();
-    return p;
-}
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t n) {
-    return counted(n, alignof(std::max_align_t));
-}
-[[gnu::noinline]] void* operator new(std::size_t n, std::align_val_t a) {
-    return counted(n, static_cast<std::size_t>(a));
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-    std::free(p);
-}
 
 BOOST_AUTO_TEST_SUITE(stepping_allocations)
 
 using namespace experiment;
 
 BOOST_AUTO_TEST_CASE(the_counter_counts) {
-    const long before = allocations;
+    const long before = allocation_count;
     delete new int(3);
-    BOOST_CHECK_GT(allocations.load(), before);
+    BOOST_CHECK_GT(allocation_count, before);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_steady_step_allocates_nothing, D, dimensions) {
@@ -52,9 +24,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_steady_step_allocates_nothing, D, dimensions) {
         params.gap_correction.fraction = 0.1;
         auto sim = heap<Dim>(Dim == 2 ? 6 : 3, 5, law<Dim>(0.4), 2e-3, params);
         sim.run(2.0);
-        const long before = allocations;
+        const long before = allocation_count;
         sim.run(0.1);
-        BOOST_CHECK_EQUAL(allocations.load() - before, 0);
+        BOOST_CHECK_EQUAL(allocation_count - before, 0);
         BOOST_CHECK_GT(sim.data().contact_count(), 20u);
     }
 }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <talus/collision/brute_force.hpp>
+#include <talus/collision/hierarchical_grid.hpp>
+
+#include <span>
+#include <vector>
+
+namespace {
+
+/// The least a broad phase may be.
+struct BroadPhaseArchetype {
+    void find_pairs(std::span<const talus::Aabb<3>>, talus::NoObstacles,
+                    std::vector<talus::CandidatePair>&) {}
+};
+/// Does not ask who is an obstacle.
+struct BlindToObstacles {
+    void find_pairs(std::span<const talus::Aabb<3>>, std::vector<talus::CandidatePair>&) {}
+};
+/// Would return pairs anew in each step.
+struct ReturnsPairs {
+    std::vector<talus::CandidatePair> find_pairs(std::span<const talus::Aabb<3>>) { return {}; }
+};
+
+static_assert(talus::BroadPhase<BroadPhaseArchetype, 3>);
+static_assert(!talus::BroadPhase<BroadPhaseArchetype, 2>);
+static_assert(!talus::BroadPhase<BlindToObstacles, 3>);
+static_assert(!talus::BroadPhase<ReturnsPairs, 3>);
+static_assert(talus::BroadPhase<talus::BruteForce<2>, 2>);
+static_assert(talus::BroadPhase<talus::HierarchicalGrid<3>, 3>);
+static_assert(!talus::BroadPhase<talus::HierarchicalGrid<3>, 2>);
+
+}  // namespace
