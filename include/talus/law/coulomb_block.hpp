@@ -37,7 +37,7 @@ class CoulombBlock {
 
     /// The new impulse from the velocity u = W r + b that the present impulse r leads to.
     Vector<Dim> improved(double mu, const Vector<Dim>& u, const Vector<Dim>& r) const {
-        return diagonal() ? diagonal_solution(mu, u, r) : general_solution(mu, u - W_ * r);
+        return diagonal() ? diagonal_solution(mu, u, r) : general_solution(mu, u - times(r));
     }
     /// The same without the short way for W = diag(W_nn, s, s): its oracle.
     Vector<Dim> general_solution(double mu, const Vector<Dim>& b) const;
@@ -55,6 +55,14 @@ class CoulombBlock {
     double normal_impulse(double b_n, const Tangent& r_t) const {
         return -(b_n + coupling_.dot(r_t)) * normal_inverse_;
     }
+    /// W r, from the parts of W that are kept.
+    Vector<Dim> times(const Vector<Dim>& r) const {
+        const Tangent r_t = axes_.transpose() * r.template tail<Dim - 1>();
+        const double coupled = coupling_.dot(r_t);
+        const Tangent u_t =
+            stiffness_.cwiseProduct(r_t) + coupling_ * (r[0] + coupled * normal_inverse_);
+        return in_contact_axes(normal_ * r[0] + coupled, u_t);
+    }
     Vector<Dim> in_contact_axes(double r_n, const Tangent& r_t) const {
         Vector<Dim> r;
         r[0] = r_n;
@@ -62,16 +70,17 @@ class CoulombBlock {
         return r;
     }
 
+    double normal_ = 0.0;           ///< W_nn [1/kg]
     double normal_inverse_ = 0.0;   ///< 1 / W_nn [kg]; 0 where W_nn is 0 to rounding
     double tangent_inverse_ = 0.0;  ///< 1 / s [kg] if diagonal(), else 0
     Tangent stiffness_;             ///< eigenvalues of S, ascending, rounding set to 0 [1/kg]
     Tangent coupling_;              ///< W_tn in the eigenvectors of S [1/kg]
     Eigen::Matrix<double, Dim - 1, Dim - 1> axes_;  ///< eigenvectors of S, in columns
-    Matrix<Dim> W_;                                 ///< [1/kg]
 };
 
 template <int Dim>
-requires SpaceDimension<Dim> CoulombBlock<Dim>::CoulombBlock(const Matrix<Dim>& w) : W_(w) {
+requires SpaceDimension<Dim> CoulombBlock<Dim>::CoulombBlock(const Matrix<Dim>& w)
+    : normal_(w(0, 0)) {
     const double rounding = 8.0 * epsilon * w.trace();
     if (w(0, 0) > epsilon * w.trace()) normal_inverse_ = 1.0 / w(0, 0);
     const Tangent w_tn = w.template bottomLeftCorner<Dim - 1, 1>();
@@ -157,15 +166,15 @@ template <int Dim>
 requires SpaceDimension<Dim>
 double CoulombBlock<Dim>::slip_root(double mu, double b_n, const Tangent& c) const {
     const double scale = c.norm() / -b_n;
-    const double direct = W_(0, 0) / mu - coupling_.dot(c) / c.norm();  // h is linear: its root
+    const double direct = normal_ / mu - coupling_.dot(c) / c.norm();  // h is linear: its root
     if (!(mu > 0.0) || !std::isfinite(direct * scale)) return 0.0;
     const Tangent offset = stiffness_.array() - stiffness_[0];
     if (offset[Dim - 2] == 0.0) return direct * scale;
 
     double low = stiffness_[0];
-    double high = (W_(0, 0) / mu + coupling_.norm()) * scale;
+    double high = (normal_ / mu + coupling_.norm()) * scale;
     // Limit of h at a = 0 where S is singular in a direction that c has a part in.
-    if (low == 0.0 && c[0] != 0.0 && mu * coupling_[0] * c[0] >= std::abs(c[0]) * W_(0, 0))
+    if (low == 0.0 && c[0] != 0.0 && mu * coupling_[0] * c[0] >= std::abs(c[0]) * normal_)
         return 0.0;
     double a = direct * scale - 0.5 * offset[Dim - 2];
     constexpr int enough = 100;  // bisection of the exponent range would need 64

@@ -40,11 +40,11 @@ bool has_scalar_inertia(const InverseMass<Dim>& m) {
 /// one contact's impulse costs the same however many neighbours the contact has.
 ///
 /// `Inertia` is how a body's inverse inertia is stored: AngularMatrix<Dim> for any body, double
-/// where has_scalar_inertia; the first is the oracle of the second. Contacts are packed in one row
-/// each (in space 128 bytes, two cache lines), bodies in one line each (in space 64 bytes with
-/// scalar inertia: one cache line, 128 with a tensor), so that a sweep reads contacts as a stream.
-/// The arithmetic is written out by components: packed in pairs, vectors of three cost more in
-/// shuffles and waits than they save.
+/// where has_scalar_inertia; the first is the oracle of the second. Contacts are read where they
+/// are, in the arrays of the jacobian (in space 128 bytes each), which must outlive the operator;
+/// bodies are packed in one line each (in space 64 bytes with scalar inertia: one cache line, 128
+/// with a tensor), so that a sweep reads contacts as a stream. The arithmetic is written out by
+/// components: packed in pairs, vectors of three cost more in shuffles and waits than they save.
 template <int Dim, class Inertia = AngularMatrix<Dim>>
 requires std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, double>
 class DelassusProduct {
@@ -54,12 +54,10 @@ class DelassusProduct {
         assign(jacobian, inverse_mass);
     }
 
-    /// Takes a new problem in, at zero impulses. Allocates only if it is larger than any before.
+    /// Takes a new problem in, at zero impulses, keeping a reference to `jacobian`. Allocates only
+    /// if there are more bodies than ever before.
     void assign(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
-        contacts_.resize(jacobian.contact_count());
-        for (std::size_t i = 0; i < contacts_.size(); ++i)
-            contacts_[i] = {jacobian.frame[i], jacobian.arm_a[i], jacobian.arm_b[i], jacobian.a[i],
-                            jacobian.b[i]};
+        jacobian_ = &jacobian;
         bodies_.resize(inverse_mass.body_count());
         for (std::size_t k = 0; k < bodies_.size(); ++k) {
             bodies_[k].inverse_mass = inverse_mass.linear[k];
@@ -72,11 +70,13 @@ class DelassusProduct {
         }
     }
 
-    std::size_t contact_count() const { return contacts_.size(); }
+    std::size_t contact_count() const {
+        return jacobian_ == nullptr ? 0 : jacobian_->contact_count();
+    }
 
     /// W_ii, exactly symmetric.
     Matrix<Dim> diagonal_block(std::size_t i) const {
-        const Row& c = contacts_[i];
+        const Row c = row(i);
         Matrix<Dim> world = Matrix<Dim>::Zero();
         for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
             const Body& x = bodies_[static_cast<std::size_t>(body)];
@@ -91,31 +91,35 @@ class DelassusProduct {
     /// u = W r, for impulses that need not be the ones followed. Not for concurrent use of one
     /// operator: the body velocities it needs are kept from call to call.
     void multiply(std::span<const Vector<Dim>> r, std::span<Vector<Dim>> u) const {
-        TALUS_CHECK(r.size() == contacts_.size(), "one impulse per contact");
-        TALUS_CHECK(u.size() == contacts_.size(), "one velocity per contact");
+        TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
+        TALUS_CHECK(u.size() == contact_count(), "one velocity per contact");
         scratch_ = bodies_;
         accumulate(r, scratch_);
-        for (std::size_t i = 0; i < contacts_.size(); ++i) u[i] = velocity(contacts_[i], scratch_);
+        for (std::size_t i = 0; i < contact_count(); ++i) u[i] = velocity(row(i), scratch_);
     }
 
     /// Velocities of the impulses `r`, computed afresh.
     void start(std::span<const Vector<Dim>> r) {
-        TALUS_CHECK(r.size() == contacts_.size(), "one impulse per contact");
+        TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
         accumulate(r, bodies_);
     }
 
     /// Row i of W r for the present impulses [m/s].
-    Vector<Dim> velocity(std::size_t i) const { return velocity(contacts_[i], bodies_); }
+    Vector<Dim> velocity(std::size_t i) const { return velocity(row(i), bodies_); }
 
     /// r_i += dr.
-    void add(std::size_t i, const Vector<Dim>& dr) { add(contacts_[i], dr, bodies_); }
+    void add(std::size_t i, const Vector<Dim>& dr) { add(row(i), dr, bodies_); }
 
   private:
     struct Row {
-        Matrix<Dim> frame;
-        Vector<Dim> arm_a, arm_b;
+        const Matrix<Dim>& frame;
+        const Vector<Dim>&arm_a, &arm_b;
         BodyIndex a, b;
     };
+    Row row(std::size_t i) const {
+        const ContactJacobian<Dim>& j = *jacobian_;
+        return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i]};
+    }
     struct Body {
         Vector<Dim> linear;
         AngularVector<Dim> angular;
@@ -159,10 +163,10 @@ class DelassusProduct {
             x.linear.setZero();
             x.angular.setZero();
         }
-        for (std::size_t i = 0; i < contacts_.size(); ++i) add(contacts_[i], r[i], bodies);
+        for (std::size_t i = 0; i < contact_count(); ++i) add(row(i), r[i], bodies);
     }
 
-    std::vector<Row> contacts_;
+    const ContactJacobian<Dim>* jacobian_ = nullptr;
     std::vector<Body> bodies_;
     mutable std::vector<Body> scratch_;
 };
