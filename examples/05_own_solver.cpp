@@ -19,8 +19,8 @@ struct Jacobi {
                                     std::span<talus::Vector<Dim>> r) {
         talus::DelassusProduct<Dim> w(problem.jacobian, problem.inverse_mass);
         std::vector<talus::Vector<Dim>> next(r.size());
-        report = {.status = talus::SolveStatus::sweep_limit};
-        for (report.sweeps = 0; report.sweeps < 20000; ++report.sweeps) {
+        report = {};
+        for (; report.sweeps < 20000; ++report.sweeps) {
             if (report.sweeps % 10 == 0) {
                 report.residual = talus::residual<Dim>(problem, r).relative;
                 if (report.residual <= tolerance) {

@@ -55,33 +55,33 @@ class Pile(unittest.TestCase):
         self.assert_rejected(["nowhere.txt", "cannot be read"], "--scene", "nowhere.txt")
 
     def test_wrong_numbers_in_a_scene(self):
-        self.assert_scene_rejected(DISC + "0.1 abc 0.005\n", ":5:", "abc")
-        self.assert_scene_rejected(DISC + "0.1 nan 0.005\n", ":5:", "nan")
-        self.assert_scene_rejected(DISC + "0.1 0.1 -0.005\n", ":5:", "-0.005", "r [m]")
-        self.assert_scene_rejected(DISC + "0.1 0.1\n", ":5:")
-        self.assert_scene_rejected(DISC + "0.1 0.1 0.005 7\n", ":5:")
+        self.assert_scene_rejected(DISC + "0.1 abc 0.005\n", "line 5:", "abc")
+        self.assert_scene_rejected(DISC + "0.1 nan 0.005\n", "line 5:", "nan")
+        self.assert_scene_rejected(DISC + "0.1 0.1 -0.005\n", "line 5:", "-0.005", "r [m]")
+        self.assert_scene_rejected(DISC + "0.1 0.1\n", "line 5:")
+        self.assert_scene_rejected(DISC + "0.1 0.1 0.005 7\n", "line 5:")
         self.assert_scene_rejected(DISC.replace("n 1", "n 2") + "0.1 0.1 0.005\n")
 
     def test_zero_mass(self):
-        self.assert_scene_rejected(DISC.replace("rho 2600", "rho 0") + "0.1 0.1 0.005\n", ":4:", "rho")
+        self.assert_scene_rejected(DISC.replace("rho 2600", "rho 0") + "0.1 0.1 0.005\n", "line 4:", "rho")
 
     def test_unknown_key(self):
-        self.assert_scene_rejected(DISC.replace("rho", "density") + "0.1 0.1 0.005\n", ":4:", "density")
+        self.assert_scene_rejected(DISC.replace("rho", "density") + "0.1 0.1 0.005\n", "line 4:", "density")
 
     def test_polygon_not_convex(self):
         dart = "0.1 0.1 0.0070710678118654755 4 0.005 -0.005 -0.001 -0.001 -0.005 0.005 -0.005 -0.005\n"
-        self.assert_scene_rejected(POLYGON + dart, ":5:", "convex")
+        self.assert_scene_rejected(POLYGON + dart, "line 5:", "convex")
 
     def test_polygon_with_coincident_vertices(self):
         twice = SQUARE.replace(" 4 ", " 5 ").replace("0.005 -0.005 0.005 0.005", "0.005 -0.005 0.005 0.005 0.005 0.005", 1)
-        self.assert_scene_rejected(POLYGON + twice, ":5:", "coincide")
+        self.assert_scene_rejected(POLYGON + twice, "line 5:", "coincide")
 
     def test_overlapping_start(self):
         two = DISC.replace("n 1", "n 2") + "0.1 0.1 0.005\n0.105 0.1 0.005\n"
-        self.assert_scene_rejected(two, ":6:", "overlaps")
+        self.assert_scene_rejected(two, "line 6:", "overlaps")
 
     def test_grain_outside_the_box(self):
-        self.assert_scene_rejected(DISC + "0.199 0.1 0.005\n", ":5:")
+        self.assert_scene_rejected(DISC + "0.199 0.1 0.005\n", "line 5:")
 
     def test_wrong_options(self):
         self.assert_rejected(["--mu", "-1", "[0, 1000]"], "--mu", "-1")

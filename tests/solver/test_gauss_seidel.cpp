@@ -52,6 +52,28 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(gauss_seidel_is_a_contact_solver, D, dimensions) {
         });
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(after_enough_sweeps_any_order_becomes_random, D, dimensions) {
+    constexpr int dim = D::value;
+    using Law = talus::Coulomb<dim>;
+    RandomBlocks random(70);
+    const auto p = well_posed<dim, Law>(random, {0.3});
+    const auto solved = [&](talus::SweepOrder order, int shuffle_after) {
+        std::vector<talus::Vector<dim>> r(p.contact_count(), talus::Vector<dim>::Zero());
+        talus::GaussSeidel<dim, Law> solver({.max_sweeps = 5,
+                                             .tolerance = 0.0,
+                                             .order = order,
+                                             .seed = 9,
+                                             .shuffle_after = shuffle_after});
+        solver.solve(p, r);
+        return r;
+    };
+    const auto from_start = solved(talus::SweepOrder::random, 1000);
+    BOOST_CHECK(solved(talus::SweepOrder::forward, 0) == from_start);
+    BOOST_CHECK(solved(talus::SweepOrder::backward, 0) == from_start);
+    BOOST_CHECK(solved(talus::SweepOrder::forward, 2) != from_start);
+    BOOST_CHECK(solved(talus::SweepOrder::forward, 2) != solved(talus::SweepOrder::forward, 5));
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(velocities_depend_on_neither_order_nor_operator, D, dimensions) {
     constexpr int dim = D::value;
     using Law = talus::Coulomb<dim>;

@@ -20,10 +20,10 @@ struct DrawnGrain {
 /// A pile of the plane to draw, as plain numbers.
 struct PileDrawing {
     double box_width = 0.0;  ///< walls at x = 0 and here, floor at y = 0 [m]
-    std::vector<DrawnGrain> grains;
-    std::vector<DrawnContact<2>> contacts;
-    std::string title;
-    std::vector<std::string> captions;  ///< lines under the picture
+    std::vector<DrawnGrain> grains = {};
+    std::vector<DrawnContact<2>> contacts = {};
+    std::string title = {};
+    std::vector<std::string> captions = {};  ///< lines under the picture
 };
 
 namespace detail {

@@ -4,6 +4,8 @@
 #include <talus/core/input.hpp>
 #include <talus/io/drawing_scales.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,10 +27,10 @@ struct DrawnSolid {
 /// the box, on the right the forces through all of it.
 struct SpaceDrawing {
     Vector<2> box_sides = Vector<2>::Zero();  ///< horizontal sides of the box [m]
-    std::vector<DrawnSolid> grains;
-    std::vector<DrawnContact<3>> contacts;
-    std::string title;
-    std::vector<std::string> captions;  ///< lines under the picture
+    std::vector<DrawnSolid> grains = {};
+    std::vector<DrawnContact<3>> contacts = {};
+    std::string title = {};
+    std::vector<std::string> captions = {};  ///< lines under the picture
 };
 
 namespace detail {

@@ -53,6 +53,7 @@ class DelassusProduct {
     DelassusProduct(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
         assign(jacobian, inverse_mass);
     }
+    DelassusProduct(ContactJacobian<Dim>&&, const InverseMass<Dim>&) = delete;
 
     /// Takes a new problem in, at zero impulses, keeping a reference to `jacobian`. Allocates only
     /// if there are more bodies than ever before.
