@@ -191,8 +191,8 @@ std::vector<std::string> write_pictures(const Simulation& sim, const talus::Scen
                   "exact law %.1e.",
                   sim.data().report.residual);
     const bool balls = s.grains.front().corners.empty();
-    const char* kind = Dim == 2 ? (balls ? " discs" : " polygons")
-                                : (balls ? " spheres" : " polyhedra");
+    const char* kind =
+        Dim == 2 ? (balls ? " discs" : " polygons") : (balls ? " spheres" : " polyhedra");
     const std::string title = std::to_string(s.grains.size()) + kind + " after " +
                               talus::detail::text_of(sim.time()) + " s";
     const std::filesystem::path base =

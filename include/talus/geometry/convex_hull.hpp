@@ -169,8 +169,7 @@ inline std::vector<VertexLoop> convex_hull_faces(std::span<const Vector<3>> poin
                 detail::reject_vertex(i, "coincides with vertex " + std::to_string(j) +
                                              ", but the vertices must be distinct");
     const detail::TriangleHull hull(points, 1e-12 * extent);
-    const auto loops =
-        detail::outlines(hull.triangles(), detail::coplanar_groups(hull, points, flat));
+    auto loops = detail::outlines(hull.triangles(), detail::coplanar_groups(hull, points, flat));
     std::vector<int> faces_at(points.size(), 0);
     for (const VertexLoop& loop : loops)
         for (const std::uint32_t v : loop) ++faces_at[v];

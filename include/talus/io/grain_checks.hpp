@@ -27,7 +27,7 @@ inline std::string shape_complaint(const std::vector<Vector<2>>& v, double radiu
         return "has the area " + text_of(area) +
                " m^2, but must be positive, its vertices counter-clockwise";
     for (std::size_t i = 0; i < count; ++i) {
-        const Vector<2>&before = v[i], corner = v[(i + 1) % count], after = v[(i + 2) % count];
+        const Vector<2>&before = v[i], &corner = v[(i + 1) % count], &after = v[(i + 2) % count];
         const double bend = turn(before, corner, after);
         if (bend <= 1e-9 * radius * radius)
             return "is not strictly convex at " + vertex_name((i + 1) % count) +

@@ -74,6 +74,7 @@ inline void draw_solid(Svg& svg, const Camera& camera, const Vector<2>& shift, c
         if (normal.dot(camera.away) >= 0.0) continue;
         const double lit = 0.72 + 0.28 * normal.dot(light);
         std::vector<Vector<2>> outline_points;
+        outline_points.reserve(face.size());
         for (const auto& p : face) outline_points.push_back(camera.project(p) + shift);
         svg.polygon(outline_points, {.fill = svg_grey(grey * lit),
                                      .stroke = "#333",

@@ -45,7 +45,7 @@ inline double least_depth(std::span<const Vector<3>> points, std::span<const Fac
                           const Vector<3>& centre) {
     double least = 2.0;
     for (const Face& f : faces) {
-        const Vector<3> a = points[f[0]];
+        const Vector<3>& a = points[f[0]];
         const Vector<3> normal = (points[f[1]] - a).cross(points[f[2]] - a).normalized();
         least = std::min(least, normal.dot(a - centre));
     }

@@ -8,6 +8,7 @@
 #include <talus/stepping/gap_correction.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -64,7 +65,7 @@ class Simulation {
     template <class OnStep = Ignore>
     void run(double duration, OnStep on_step = {}) {
         require_non_negative("duration", duration);
-        const auto steps = static_cast<std::int64_t>(duration / params_.h + 0.5);
+        const std::int64_t steps = std::llround(duration / params_.h);
         for (std::int64_t k = 0; k < steps; ++k) {
             step();
             if (!notify(on_step, std::as_const(*this))) return;
