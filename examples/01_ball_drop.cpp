@@ -2,7 +2,8 @@
 //
 // A ball is thrown obliquely onto a floor, with friction and without restitution, in the plane and
 // in space from one text. It lands, slides, and ends by rolling; a disc keeps 2/3 of its horizontal
-// speed, a sphere 5/7, whatever the friction coefficient (Coriolis 1835).
+// speed, a sphere 5/7, whatever the friction coefficient (Coriolis 1835). The landing falls
+// somewhere within a step, which leaves an error of order h.
 //
 // Sample run:  examples/run 01_ball_drop
 #include <talus/talus.hpp>

@@ -13,7 +13,8 @@ def faults(root):
             yield "README.md: a block of C++ that does not say which example it is from"
         elif code not in (root / source).read_text():
             yield f"README.md: code that is not in {source}"
-    for target in re.findall(r"\]\(([^)#]+)\)", text):
+    prose = re.sub(r"```.*?```", "", text, flags=re.DOTALL)
+    for target in re.findall(r"\]\(([^)#]+)\)", prose):
         if not target.startswith("http") and not (root / target).exists():
             yield f"README.md: link to {target}, which is not there"
 

@@ -172,7 +172,7 @@ inline std::string space_svg(const SpaceDrawing& pile, const DrawingParams& para
                                     params.strongest_width * diameter};
     const Vector<2> left = -frame.low, right = panel - frame.low;
     detail::draw_box(svg, camera, left, pile.box_sides, top, 0.08 * em);
-    detail::draw_solids(svg, camera, left, pile, grey, 0.03 * diameter);
+    detail::draw_solids(svg, camera, left, pile, grey, 0.015 * diameter);
     detail::draw_box(svg, camera, right, pile.box_sides, top, 0.08 * em);
     detail::draw_space_chains(svg, camera, right, pile, widths);
 
