@@ -200,6 +200,25 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_run_stops_when_the_observer_says_so, D, dimensio
     BOOST_CHECK_CLOSE(sim.time(), 7 * 2e-3, 1e-12);
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_force_that_is_not_finite_is_named_and_nothing_moves, D,
+                              dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = small_heap<Dim>();
+    sim.run(0.1);
+    const auto before = state(sim);
+    sim.system().forces.push_back(
+        [](double, const auto&, auto wrenches) { wrenches[9].force[1] = std::nan(""); });
+    BOOST_CHECK_EXCEPTION(sim.step(), talus::input_error, [](const auto& e) {
+        return std::string(e.what()).find("body 9") != std::string::npos;
+    });
+    const auto after = state(sim);
+    double moved = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+        moved = std::max(moved, std::abs(after[i] - before[i]));
+    BOOST_CHECK_LT(moved, 1e-14);  // there and back by half a step
+    BOOST_CHECK_EQUAL(sim.step_count(), 50);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(settings_out_of_range_are_rejected, D, dimensions) {
     constexpr int Dim = D::value;
     const auto with_h = [](double h) {

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 
 namespace talus {
 
@@ -59,7 +60,8 @@ class MoreauMidpoint {
   public:
     using SystemType = System<Dim, Law, ShapeType>;
 
-    /// Advances `system` from t_begin by h; `data` receives what happened.
+    /// Advances `system` from t_begin by h; `data` receives what happened. Throws input_error, with
+    /// the system as it was, if a prescribed motion or an applied force is not finite.
     template <ContactSolver<Dim, Law> Solver>
     void step(SystemType& system, double t_begin, double h, const StepParams& params,
               Solver& solver, StepData<Dim, Law>& data) {
@@ -83,8 +85,8 @@ class MoreauMidpoint {
     void move_to_midpoint(SystemType& system, StepData<Dim, Law>& data) {
         Bodies<Dim>& bodies = system.bodies;
         const std::size_t n = bodies.count();
-        drift(bodies, 0.5 * data.h);
         system.place_obstacles(data.t_mid());
+        drift(bodies, 0.5 * data.h);
         data.begin.resize(n);
         for (std::size_t i = 0; i < n; ++i) data.begin[i] = bodies.twist(i);
     }
@@ -140,6 +142,7 @@ class MoreauMidpoint {
         if (!system.forces.empty()) {
             data.applied.assign(n, Wrench<Dim>{});
             for (const auto& force : system.forces) force(data.t_mid(), bodies, data.applied);
+            require_finite_forces(system, data);
         } else {
             data.applied.clear();
         }
@@ -154,6 +157,18 @@ class MoreauMidpoint {
             data.end[i] =
                 free_velocity<Dim>(bodies, i, data.h, system.gravity,
                                    data.applied.empty() ? Wrench<Dim>{} : data.applied[i], change);
+        }
+    }
+
+    /// Goes back to the beginning of the step and throws if some applied force is not finite.
+    static void require_finite_forces(SystemType& system, const StepData<Dim, Law>& data) {
+        for (std::size_t i = 0; i < data.applied.size(); ++i) {
+            if (data.applied[i].force.allFinite() && data.applied[i].torque.allFinite()) continue;
+            drift(system.bodies, -0.5 * data.h);
+            system.place_obstacles(data.t_begin);
+            const std::string item = "applied force on body " + std::to_string(i);
+            require_finite(item, data.applied[i].force);
+            require_finite(item + ", its torque", data.applied[i].torque);
         }
     }
 

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,11 +24,15 @@ namespace talus {
 template <int Dim>
 using DefaultLaw = WeightedMean<Dim, Coulomb<Dim>>;
 
-/// Puts body i where its prescribed motion has it at time t [s].
+/// Puts body i where its prescribed motion has it at time t [s]. Throws input_error if that is not
+/// finite.
 template <int Dim>
 void place(Bodies<Dim>& bodies, std::size_t i, const PrescribedMotion<Dim>& motion, double t) {
     const Pose<Dim> pose = motion.pose(t);
     const Twist<Dim> twist = motion.twist(t);
+    if (!pose.position.allFinite() || !twist.linear.allFinite() || !twist.angular.allFinite())
+        throw input_error("prescribed motion of body " + std::to_string(i) + " at time " +
+                          detail::text_of(t) + " is not finite, but must be");
     bodies.position[i] = pose.position;
     bodies.rotation[i] = pose.rotation;
     bodies.velocity[i] = twist.linear;
