@@ -11,7 +11,7 @@ namespace experiment {
 /// layers, in a box with friction everywhere. The box is made of half-spaces.
 template <int Dim>
 talus::Simulation<Dim> heap(int wide, int high, const talus::DefaultLaw<Dim>& contact_law, double h,
-                            talus::SimulationParams params = {}) {
+                            talus::SimulationParams params = {}, double size = 1.0) {
     params.h = h;
     talus::Simulation<Dim> sim(contact_law, params);
     auto& system = sim.system();
@@ -20,7 +20,7 @@ talus::Simulation<Dim> heap(int wide, int high, const talus::DefaultLaw<Dim>& co
     system.add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
     for (int axis = 0; axis < Dim - 1; ++axis) {
         system.add_obstacle(talus::HalfSpace<Dim>{V<Dim>::Unit(axis), 0.0});
-        system.add_obstacle(talus::HalfSpace<Dim>{-V<Dim>::Unit(axis), -width});
+        system.add_obstacle(talus::HalfSpace<Dim>{-V<Dim>::Unit(axis), -size * width});
     }
     std::mt19937 rng(7);
     const int per_layer = Dim == 2 ? wide : wide * wide;
@@ -31,7 +31,7 @@ talus::Simulation<Dim> heap(int wide, int high, const talus::DefaultLaw<Dim>& co
         x[Dim - 1] = (k / per_layer + 0.5) * pitch;
         x += random_input::vector<V<Dim>>(rng, 0.004);
         const double r = random_input::uniform(rng, 0.04, 0.06);
-        system.add(talus::Ball<Dim>{r}, 2600.0, {x, {}});
+        system.add(talus::Ball<Dim>{size * r}, 2600.0, {size * x, {}});
     }
     return sim;
 }

@@ -89,6 +89,29 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_same_input_gives_the_same_bits, D, dimensions)
     BOOST_CHECK(same_bits(state(one), state(two)));
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(grains_of_a_micrometre_move_as_grains_of_a_metre_to_the_bit, D,
+                              dimensions) {
+    constexpr int Dim = D::value;
+    // Lengths by 2^-20 and times by 2^-10, under the same gravity: all roundings are the same.
+    const double length = 0x1p-20, time = 0x1p-10, h = 0x1p-9;
+    const int wide = Dim == 2 ? 6 : 3;
+    auto metre = heap<Dim>(wide, 5, law<Dim>(0.4, 0.3), h);
+    auto micrometre = heap<Dim>(wide, 5, law<Dim>(0.4, 0.3), time * h, {}, length);
+    for (int k = 0; k < 300; ++k) {
+        metre.step();
+        micrometre.step();
+        BOOST_REQUIRE_EQUAL(metre.data().report.sweeps, micrometre.data().report.sweeps);
+        BOOST_REQUIRE_EQUAL(metre.data().report.residual, micrometre.data().report.residual);
+    }
+    BOOST_CHECK_GT(metre.data().contact_count(), 20u);
+    const auto& large = metre.system().bodies;
+    const auto& small = micrometre.system().bodies;
+    for (std::size_t i = 0; i < large.count(); ++i) {
+        BOOST_CHECK_EQUAL(small.position[i], V<Dim>(length * large.position[i]));
+        BOOST_CHECK_EQUAL(small.velocity[i], V<Dim>(length / time * large.velocity[i]));
+    }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(the_candidates_of_the_broad_phase_do_not_show_in_the_bits, D,
                               dimensions) {
     constexpr int Dim = D::value;
