@@ -23,7 +23,7 @@ void drop_ball() {
     system.gravity = -9.81 * up;
     system.add_obstacle(HalfSpace<Dim>{up, 0.0});
     const BodyIndex ball = system.add(Ball<Dim>{radius}, 1000.0, {1.0 * up, {}},
-                                      {Vector<Dim>(3.0 * Vector<Dim>::Unit(0)), {}});
+                                      {Vector<Dim>(3.0 * Vector<Dim>::Unit(0))});
 
     EnergyLedger<Dim> ledger(system.bodies, system.gravity);
     double worst_residual = 0.0;

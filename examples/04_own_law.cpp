@@ -47,7 +47,7 @@ void slide() {
     system.add_obstacle(HalfSpace<Dim>{up, 0.0});
     // Infinite moments of inertia: a block that does not turn.
     system.add(Ball<Dim>{0.1}, Inertia<Dim>{mass, AngularVector<Dim>::Constant(never)},
-               {0.1 * up, {}}, {Vector<Dim>::Unit(0), {}});
+               {0.1 * up, {}}, {Vector<Dim>::Unit(0)});
     sim.run(0.5);
     std::printf("%dD: speed after 50 steps %.12f m/s, exact %.12f, residual %.0e\n", Dim,
                 system.bodies.velocity[1][0], std::pow(1 + drag / mass, -50),

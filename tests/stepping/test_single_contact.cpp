@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(the_choice_of_tangents_does_not_matter) {
         auto sim = simulation<3>(law<3>(mu), h, turn * V<3>(0, 0, -g), false);
         sim.system().add_obstacle(talus::HalfSpace<3>{turn * V<3>(0, 0, 1), 0.0});
         sim.system().add(talus::Ball<3>{radius}, point_mass<3>(1.0),
-                         {turn * V<3>(0, 0, radius), {}}, {turn * V<3>(1.6, 1.2, 0) * v / 2, {}});
+                         {turn * V<3>(0, 0, radius), {}}, {turn * V<3>(1.6, 1.2, 0) * v / 2});
         sim.run(1.0);
         stops.push_back(turn.transpose_times(sim.system().bodies.position[1]));
     }
