@@ -35,7 +35,7 @@ struct Ellipse {
         return {pose.position - reach, pose.position + reach};
     }
 };
-static_assert(talus::ConvexShape<Ellipse<2>, 2> && talus::ConvexShape<Ellipse<3>, 3>);
+static_assert(talus::ConvexShape<Ellipse<3>, 3>);
 
 template <int Dim>
 void rock() {
