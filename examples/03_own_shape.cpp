@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 //
 // A shape of one's own: an ellipse (in space an ellipsoid of revolution) that rocks on a floor. All
-// a convex shape has to tell is a box around it, its support mapping, and, to be made a body of,
-// its volume integrals. Small rocking of a body that rolls without slip about its flat pole is a
-// pendulum; the period of the ellipse follows from its curvature there.
-//
+// a convex shape has to tell is a box around it and its support mapping. Small rocking without slip
+// about the flat pole is a pendulum; its period follows from the curvature there.
 // Sample run:  examples/run 03_own_shape
 #include <talus/talus.hpp>
 
