@@ -67,11 +67,13 @@ double largest_point_speed(const System<Dim, Law, ShapeType>& system,
 /// velocity; if the end velocity is zero, the contact forces found agree with equilibrium ([Moreau]
 /// end of section 2.1). The system is not changed. `start` offers impulses to begin from (scaled
 /// for this h): with self-stress, as in a jammed wedge, the verdict may depend on it, since both
-/// answers are then solutions.
-template <int Dim, class Law, class ShapeType, class Solver = GaussSeidel<Dim, Law>>
+/// answers are then solutions. `hooks` are called between the stages of the step.
+template <int Dim, class Law, class ShapeType, class Solver = GaussSeidel<Dim, Law>,
+          class Hooks = NoHooks>
 EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
                                         const EquilibriumParams& params, Solver solver = Solver(),
-                                        const ImpulseCache<Dim>& start = {}) {
+                                        const ImpulseCache<Dim>& start = {},
+                                        const Hooks& hooks = {}) {
     require_positive("step size h", params.h);
     require_positive("rest", params.rest);
     require_non_negative("contact tolerance", params.contact_tolerance);
@@ -80,7 +82,8 @@ EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
         bodies.velocity[i].setZero();
         bodies.spin[i].setZero();
     }
-    MoreauMidpoint<Dim, Law, ShapeType, HierarchicalGrid<Dim>> integrator;
+    MoreauMidpoint<Dim, Law, ShapeType, HierarchicalGrid<Dim>, Hooks> integrator;
+    integrator.hooks() = hooks;
     integrator.impulse_cache() = start;
     EquilibriumReport<Dim, Law> report;
     const StepParams step{.contact_tolerance = params.contact_tolerance};

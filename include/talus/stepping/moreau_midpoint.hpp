@@ -9,6 +9,7 @@
 #include <talus/solver/concepts.hpp>
 #include <talus/stepping/gap_anticipating.hpp>
 #include <talus/stepping/step_data.hpp>
+#include <talus/stepping/step_hooks.hpp>
 #include <talus/stepping/system.hpp>
 
 #include <algorithm>
@@ -55,7 +56,7 @@ void drift(Bodies<Dim>& bodies, double duration) {
 ///   u_free = u_begin + h A^-1 F(t_mid, q_mid, u_begin)
 ///   law( mean of U_begin and U_end , r )  for every active contact,  u_end = u_free + A^-1 G^T r
 ///   q_end  = q_mid + (h/2) u_end
-template <int Dim, class Law, class ShapeType, class Broad>
+template <int Dim, class Law, class ShapeType, class Broad, class Hooks = NoHooks>
 class MoreauMidpoint {
   public:
     using SystemType = System<Dim, Law, ShapeType>;
@@ -69,11 +70,26 @@ class MoreauMidpoint {
         data.h = h;
         data.correction_work = 0.0;
         move_to_midpoint(system, data);
+        hooks_.at_midpoint(system, data);
         detect(system, params, data);
-        assemble(system, params, data);
+        assemble_matrices(system, data);
+        hooks_.matrices_known(system, data);
+        evaluate_forces(system, params, data);
+        hooks_.forces_known(system, data);
+        assemble_velocities(system, params, data);
+        recall(data);
+        hooks_.problem_known(system, data);
         solve(solver, data);
+        hooks_.solved(system, data);
+        apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse,
+                            data.end);
+        hooks_.velocities_known(system, data);
         finish(system, data);
+        hooks_.finished(system, data);
     }
+
+    /// Called between the stages (step_hooks.hpp).
+    Hooks& hooks() { return hooks_; }
 
     /// Impulses remembered for the warm start.
     ImpulseCache<Dim>& impulse_cache() { return cache_; }
@@ -107,10 +123,13 @@ class MoreauMidpoint {
             });
     }
 
-    void assemble(SystemType& system, const StepParams& params, StepData<Dim, Law>& data) {
+    void assemble_matrices(SystemType& system, StepData<Dim, Law>& data) {
         assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
         assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
-        evaluate_forces(system, params, data);
+    }
+
+    void assemble_velocities(SystemType& system, const StepParams& params,
+                             StepData<Dim, Law>& data) {
         const std::size_t n = data.contact_count();
         data.problem.free_velocity.resize(n);
         data.problem.laws.clear();
@@ -125,7 +144,10 @@ class MoreauMidpoint {
             if (params.scheme == Scheme::gap_anticipating)
                 u_free[0] += anticipated_velocity(data.contacts.gap[c], data.h);
         }
-        data.impulse.resize(n);
+    }
+
+    void recall(StepData<Dim, Law>& data) {
+        data.impulse.resize(data.contact_count());
         data.recalled = cache_.recall(data.contacts, data.problem.jacobian, data.impulse,
                                       last_h_ > 0.0 ? data.h / last_h_ : 1.0);
     }
@@ -181,8 +203,6 @@ class MoreauMidpoint {
 
     void finish(SystemType& system, StepData<Dim, Law>& data) {
         Bodies<Dim>& bodies = system.bodies;
-        apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse,
-                            data.end);
         for (std::size_t i = 0; i < bodies.count(); ++i) {
             bodies.velocity[i] = data.end[i].linear;
             bodies.spin[i] = bodies.rotation[i].spin_body(data.end[i].angular);
@@ -195,6 +215,7 @@ class MoreauMidpoint {
     ImpulseCache<Dim> cache_;
     std::vector<double> reach_;
     double last_h_ = 0.0;
+    [[no_unique_address]] Hooks hooks_;
 };
 
 }  // namespace talus

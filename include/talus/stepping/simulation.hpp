@@ -32,7 +32,8 @@ struct SimulationParams {
 ///     sim.system().add(Ball<3>{0.005}, 2600.0, pose);
 ///     sim.run(1.0, [](const auto& s) { return s.data().report.residual < 1.0; });
 template <int Dim, class Law = DefaultLaw<Dim>, class ShapeType = AnyShape<Dim>,
-          class Solver = GaussSeidel<Dim, Law>, class Broad = HierarchicalGrid<Dim>>
+          class Solver = GaussSeidel<Dim, Law>, class Broad = HierarchicalGrid<Dim>,
+          class Hooks = NoHooks>
 requires SpaceDimension<Dim> && ContactLaw<Law, Dim> && ContactSolver<Solver, Dim, Law>
 class Simulation {
   public:
@@ -82,12 +83,14 @@ class Simulation {
     const Data& data() const { return data_; }  ///< of the last step
     /// Impulses remembered for the warm start; clear it to make the next step start cold.
     ImpulseCache<Dim>& impulse_cache() { return integrator_.impulse_cache(); }
+    /// Called between the stages of a step (step_hooks.hpp).
+    Hooks& hooks() { return integrator_.hooks(); }
 
   private:
     SystemType system_;
     SimulationParams params_;
     Solver solver_;
-    MoreauMidpoint<Dim, Law, ShapeType, Broad> integrator_;
+    MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks> integrator_;
     GapCorrection<Dim> gap_correction_;
     Data data_;
     double time_start_ = 0.0;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+namespace talus {
+
+/// Places between the stages of a step where a user's code may look at, or change, what the step is
+/// about to go on with: to study a variant of the method, or to break it on purpose and see which
+/// check notices. Each is given the system (a System) and the step's data (a StepData). Derive from
+/// this and hide the ones you want; what is not hidden costs nothing.
+struct NoHooks {
+    /// Free bodies at q_mid with u_begin, obstacles at t_mid; `data.begin` filled. Before the gaps.
+    template <class SystemType, class Data>
+    void at_midpoint(SystemType&, Data&) {}
+    /// `data.contacts`, jacobian and inverse masses filled. Before the forces.
+    template <class SystemType, class Data>
+    void matrices_known(SystemType&, Data&) {}
+    /// `data.end` holds u_free. Before the contacts' velocities.
+    template <class SystemType, class Data>
+    void forces_known(SystemType&, Data&) {}
+    /// `data.problem` and the warm start in `data.impulse` are as the solver will see them.
+    template <class SystemType, class Data>
+    void problem_known(SystemType&, Data&) {}
+    /// Impulses found. Before they are applied.
+    template <class SystemType, class Data>
+    void solved(SystemType&, Data&) {}
+    /// `data.end` holds u_end. Before the bodies receive it and drift to q_end.
+    template <class SystemType, class Data>
+    void velocities_known(SystemType&, Data&) {}
+    /// The bodies are at q_end.
+    template <class SystemType, class Data>
+    void finished(SystemType&, Data&) {}
+};
+
+}  // namespace talus

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case.hpp"
+
+namespace validation {
+
+enum class Verdict { passed, failed, error };
+std::string name_of(Verdict v);
+
+/// What became of a case in one dimension.
+struct Result {
+    const Case* of = nullptr;
+    int dim = 2;
+    Verdict verdict = Verdict::error;
+    std::string error;  ///< what an exception said
+    double seconds = 0.0;
+    TrialRecord record{TrialParams{}};
+
+    /// Seconds that a case of its gate should not exceed.
+    double budget() const;
+    /// The check that uses most of its bound.
+    double worst_ratio() const;
+};
+
+/// A case met by a fault.
+struct Cell {
+    const Case* of = nullptr;
+    int dim = 2;
+    Fault fault = Fault::none;
+    bool claimed = false;  ///< the case says that it catches this fault
+    bool caught = false;
+    std::string by;  ///< the check that failed
+    double seconds = 0.0;
+};
+
+struct RunOptions {
+    int jobs = 1;
+    bool full = false;
+    std::uint64_t seed = 1;
+};
+
+/// One thing to run.
+struct Job {
+    const Case* of = nullptr;
+    int dim = 2;
+};
+
+/// Runs the jobs, several at a time; the results are in the order of the jobs and do not depend on
+/// how many ran at a time. `done(k)` is called, one at a time, when job k is.
+std::vector<Result> run_all(const std::vector<Job>& jobs, const RunOptions& options,
+                            const std::function<void(std::size_t, const Result&)>& done);
+
+/// Runs the jobs under every fault: those that a case claims, and the others too where the case
+/// took less than `patience` seconds without a fault.
+std::vector<Cell> run_mutants(const std::vector<Job>& jobs, const std::vector<Result>& sound,
+                              double patience, const RunOptions& options,
+                              const std::function<void(std::size_t, std::size_t)>& done);
+
+/// Faults that no case caught, and cases (id and dimension are one line of the matrix) that caught
+/// none of their claims.
+struct MatrixVerdict {
+    std::vector<Fault> survivors;
+    std::vector<const Case*> idle;
+    std::vector<const Cell*> broken_claims;
+    bool good() const { return survivors.empty() && idle.empty() && broken_claims.empty(); }
+};
+MatrixVerdict judge(const std::vector<Cell>& cells);
+
+}  // namespace validation

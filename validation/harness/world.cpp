@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "world.hpp"
+
+#include "faulty.hpp"
+
+namespace validation {
+
+namespace detail {
+
+/// A simulation, plain or faulty.
+template <int Dim>
+class Engine {
+  public:
+    virtual ~Engine() = default;
+    virtual System<Dim>& system() = 0;
+    virtual const StepData<Dim>& step() = 0;
+    virtual const StepData<Dim>& data() const = 0;
+    virtual double time() const = 0;
+    virtual talus::ImpulseCache<Dim>& cache() = 0;
+    virtual Equilibrium<Dim> equilibrium(const talus::EquilibriumParams& params,
+                                         const talus::ImpulseCache<Dim>& start) = 0;
+};
+
+namespace {
+
+template <int Dim, class Solver, class Hooks>
+class EngineOf : public Engine<Dim> {
+  public:
+    EngineOf(System<Dim> system, const talus::SimulationParams& params, Solver solver, Hooks hooks)
+        : sim_(std::move(system), params, std::move(solver)) {
+        sim_.hooks() = hooks;
+    }
+    System<Dim>& system() override { return sim_.system(); }
+    const StepData<Dim>& step() override { return sim_.step(); }
+    const StepData<Dim>& data() const override { return sim_.data(); }
+    double time() const override { return sim_.time(); }
+    talus::ImpulseCache<Dim>& cache() override { return sim_.impulse_cache(); }
+    Equilibrium<Dim> equilibrium(const talus::EquilibriumParams& params,
+                                 const talus::ImpulseCache<Dim>& start) override {
+        return talus::equilibrium<Dim>(sim_.system(), params, sim_.solver(), start, sim_.hooks());
+    }
+
+  private:
+    talus::Simulation<Dim, Law<Dim>, ShapeType<Dim>, Solver, talus::HierarchicalGrid<Dim>, Hooks>
+        sim_;
+};
+
+template <int Dim>
+std::unique_ptr<Engine<Dim>> make_engine(const WorldParams<Dim>& params,
+                                         talus::MaterialTable<Law<Dim>> laws, Fault fault) {
+    System<Dim> system(std::move(laws));
+    system.gravity = params.gravity;
+    talus::SimulationParams settings;
+    settings.h = params.h;
+    settings.step = params.step;
+    if (fault == Fault::none) {
+        using Solver = talus::GaussSeidel<Dim, Law<Dim>>;
+        return std::make_unique<EngineOf<Dim, Solver, talus::NoHooks>>(
+            std::move(system), settings, Solver(params.solver), talus::NoHooks{});
+    }
+    if (fault == Fault::loose_contact) settings.step.contact_tolerance += 2e-2;
+    return std::make_unique<EngineOf<Dim, FaultySolver<Dim>, FaultyHooks<Dim>>>(
+        std::move(system), settings, FaultySolver<Dim>(params.solver, fault),
+        FaultyHooks<Dim>{{}, fault});
+}
+
+/// Makes the forces be evaluated half a step too early.
+template <int Dim>
+void delay_forces(System<Dim>& system, double h) {
+    for (auto& force : system.forces)
+        force = [force, h](double t, const talus::Bodies<Dim>& bodies,
+                           std::span<talus::Wrench<Dim>> wrenches) {
+            talus::Bodies<Dim> before = bodies;
+            talus::drift(before, -0.5 * h);
+            force(t - 0.5 * h, before, wrenches);
+        };
+}
+
+}  // namespace
+}  // namespace detail
+
+template <int Dim>
+World<Dim>::World(const WorldParams<Dim>& params, talus::MaterialTable<Law<Dim>> laws, Fault fault,
+                  Listener listener)
+    : params_(params),
+      listener_(std::move(listener)),
+      engine_(detail::make_engine<Dim>(params, std::move(laws), fault)),
+      late_forces_(fault == Fault::force_at_begin) {}
+template <int Dim>
+World<Dim>::World(World&&) noexcept = default;
+template <int Dim>
+World<Dim>::~World() = default;
+
+template <int Dim>
+System<Dim>& World<Dim>::system() {
+    return engine_->system();
+}
+template <int Dim>
+const System<Dim>& World<Dim>::system() const {
+    return engine_->system();
+}
+
+template <int Dim>
+talus::BodyIndex World<Dim>::add_floor(talus::MaterialIndex material) {
+    return add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0}, {}, material);
+}
+template <int Dim>
+talus::BodyIndex World<Dim>::add_plane(const V<Dim>& point, const V<Dim>& normal,
+                                       talus::MaterialIndex material) {
+    return add_obstacle(talus::HalfSpace<Dim>{normal, normal.normalized().dot(point)}, {},
+                        material);
+}
+template <int Dim>
+talus::BodyIndex World<Dim>::add(const ShapeType<Dim>& shape, const talus::Inertia<Dim>& inertia,
+                                 const talus::Pose<Dim>& pose, const talus::Twist<Dim>& twist,
+                                 talus::MaterialIndex material) {
+    return system().add(shape, inertia, pose, twist, material);
+}
+template <int Dim>
+talus::BodyIndex World<Dim>::add_obstacle(const ShapeType<Dim>& shape,
+                                          talus::PrescribedMotion<Dim> motion,
+                                          talus::MaterialIndex material) {
+    return system().add_obstacle(shape, std::move(motion), material);
+}
+
+template <int Dim>
+const StepData<Dim>& World<Dim>::step() {
+    const bool first = !stepped_;
+    if (first && late_forces_) detail::delay_forces<Dim>(system(), params_.h);
+    stepped_ = true;
+    if (first && listener_.before_first_step) listener_.before_first_step(*this);
+    const StepData<Dim>& data = engine_->step();
+    if (listener_.solved) listener_.solved(data.report.residual);
+    if (first && listener_.after_first_step) listener_.after_first_step(*this);
+    return data;
+}
+template <int Dim>
+double World<Dim>::time() const {
+    return engine_->time();
+}
+template <int Dim>
+const StepData<Dim>& World<Dim>::data() const {
+    return engine_->data();
+}
+template <int Dim>
+talus::ImpulseCache<Dim>& World<Dim>::impulse_cache() {
+    return engine_->cache();
+}
+template <int Dim>
+Equilibrium<Dim> World<Dim>::equilibrium(const talus::ImpulseCache<Dim>& start, double rest) const {
+    if (!stepped_ && listener_.before_first_step) listener_.before_first_step(*this);
+    stepped_ = true;
+    Equilibrium<Dim> report = engine_->equilibrium(
+        {.h = params_.h, .rest = rest, .contact_tolerance = params_.step.contact_tolerance}, start);
+    if (listener_.solved) listener_.solved(report.residual);
+    return report;
+}
+
+template <int Dim>
+talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
+                         const talus::GaussSeidelParams& params, Fault fault) {
+    if (fault == Fault::none)
+        return talus::GaussSeidel<Dim, Law<Dim>>(params).solve(problem, std::span<V<Dim>>(r));
+    return FaultySolver<Dim>(params, fault).solve(problem, std::span<V<Dim>>(r));
+}
+
+template <int Dim>
+V<Dim> solve_contact(const Law<Dim>& law, const talus::LocalProblem<Dim>& problem, Fault fault) {
+    if (fault == Fault::none) return law.solve(problem, V<Dim>::Zero());
+    return FaultyLaw<Dim>{law, fault}.solve(problem, V<Dim>::Zero());
+}
+
+#define TALUS_VALIDATION_INSTANTIATE(Dim)                                             \
+    template class World<Dim>;                                                        \
+    template talus::SolveReport solve<Dim>(const Problem<Dim>&, std::vector<V<Dim>>&, \
+                                           const talus::GaussSeidelParams&, Fault);   \
+    template V<Dim> solve_contact<Dim>(const Law<Dim>&, const talus::LocalProblem<Dim>&, Fault);
+TALUS_VALIDATION_INSTANTIATE(2)
+TALUS_VALIDATION_INSTANTIATE(3)
+
+}  // namespace validation
