@@ -46,7 +46,8 @@ def order_study(label, slope, band, constant, noise, generator):
     offset = mean_y - fitted * mean_x
     rest = sum((b - offset - fitted * a)**2 for a, b in zip(x, y))
     return {"label": label, "h": steps, "error": errors, "slope": fitted,
-            "slope_error": math.sqrt(rest / (len(x) - 2) / spread), "constant": math.exp(offset),
+            "slope_error": 2.8 * math.sqrt(rest / (len(x) - 2) / spread),
+            "constant": max(e / h**round(sum(band) / 2) for h, e in zip(steps, errors)),
             "band": list(band), "passed": band[0] <= fitted <= band[1]}
 
 
