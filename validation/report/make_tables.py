@@ -115,8 +115,9 @@ def whole_table(report, mutants):
     yield ""
     yield counted(report) + "."
     yield ""
-    yield ("*Class*: R rounding, S solver, D1 and D2 first and second order in the step, X statistical. *Error / bound* is "
-           "the largest over the checks of a row; 1 is the edge. *Order* is the observed slope closest to leaving its band.")
+    yield ("*Class* says what sets the bound: R rounding, S the solver, D1 and D2 first and second order in the step, "
+           "X statistics, T a tolerance stated by the catalogue, E a statement that is true or not. *Error / bound* is the "
+           "largest over the checks of a row; 1 is the edge. *Order* is the observed slope closest to leaving its band.")
     if mutants:
         yield ""
         yield "*Faults* counts the deliberate errors in the library that the row notices."
@@ -134,7 +135,7 @@ def whole_table(report, mutants):
     yield ""
     yield "## How it was made"
     yield ""
-    yield from table(["", ""], how(report))
+    yield from table(["of the run", "value"], how(report))
 
 
 def short_table(report):

@@ -6,6 +6,7 @@ The page computes the same derived numbers again in JavaScript; tests/validation
 import json
 import math
 import pathlib
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -69,6 +70,27 @@ def _require(value, shape, where):
         raise ReportError(f"{where} is {value!r}, which is not {kinds}")
 
 
+def _require_form(case, result):
+    """What the shape alone cannot say."""
+    where = f"{case['id']} in {result['dim']}D"
+    if result["verdict"] not in VERDICTS[:3]:
+        raise ReportError(f"{where}: unknown verdict '{result['verdict']}'")
+    for order in result["orders"]:
+        if len(order["band"]) != 2 or len(order["h"]) != len(order["error"]):
+            raise ReportError(f"{where}: order study '{order['label']}' has lists of wrong length")
+    for curve in result["curves"]:
+        for series in curve["series"]:
+            if len(series["x"]) != len(series["y"]):
+                raise ReportError(f"{where}: curve '{curve['label']}' has lists of different length")
+
+
+def _require_mutants(mutants, where):
+    _require(mutants, _MUTANTS, where)
+    for cell in mutants["cells"]:
+        if cell["outcome"] not in OUTCOMES:
+            raise ReportError(f"{where}: unknown outcome '{cell['outcome']}' of {cell['case']} with {cell['fault']}")
+
+
 def _read_json(path):
     def refuse(name):
         raise ReportError(f"{path}: {name} is not a number of JSON; what is not finite is null")
@@ -86,8 +108,11 @@ def load(path):
     if not isinstance(report, dict) or report.get("schema") != 1:
         raise ReportError(f"{path} is not a report of schema 1")
     _require(report, _REPORT, "report")
+    for case, result in rows(report):
+        if result is not None:
+            _require_form(case, result)
     if report.get("mutants") is not None:
-        _require(report["mutants"], _MUTANTS, "report.mutants")
+        _require_mutants(report["mutants"], "report.mutants")
     return report
 
 
@@ -95,7 +120,7 @@ def load_mutants(path):
     """The matrix in `path`, which is either a report or the matrix alone."""
     content = _read_json(path)
     mutants = content.get("mutants", content) if isinstance(content, dict) else None
-    _require(mutants, _MUTANTS, "mutants")
+    _require_mutants(mutants, "mutants")
     return mutants
 
 
@@ -158,19 +183,11 @@ def contradictions(report):
                 found.append(f"{where}: check '{check['label']}' is called {said}, "
                              f"but error / bound = {ratio(check):.3g}")
         for order in result["orders"]:
-            if len(order["band"]) != 2 or len(order["h"]) != len(order["error"]):
-                raise ReportError(f"{where}: order study '{order['label']}' has lists of wrong length")
             inside = order["slope"] is not None and order["band"][0] <= order["slope"] <= order["band"][1]
             if order["passed"] != inside:
                 said = "passed" if order["passed"] else "failed"
                 found.append(f"{where}: order study '{order['label']}' is called {said}, "
                              f"but its slope is {'inside' if inside else 'outside'} its band")
-        for curve in result["curves"]:
-            for series in curve["series"]:
-                if len(series["x"]) != len(series["y"]):
-                    raise ReportError(f"{where}: curve '{curve['label']}' has lists of different length")
-        if result["verdict"] not in VERDICTS[:3]:
-            raise ReportError(f"{where}: unknown verdict '{result['verdict']}'")
         parts = result["checks"] + result["orders"]
         if result["verdict"] == "passed" and not parts:
             found.append(f"{where} is called passed without a check")
@@ -197,9 +214,6 @@ def contradictions(report):
 
 def mutant_contradictions(mutants):
     names = {fault["name"] for fault in mutants["faults"]}
-    for cell in mutants["cells"]:
-        if cell["outcome"] not in OUTCOMES:
-            raise ReportError(f"unknown outcome '{cell['outcome']}' of a mutant")
     return [f"the matrix has a cell of fault '{name}', which is not in its list"
             for name in sorted({cell["fault"] for cell in mutants["cells"]} - names)]
 
@@ -219,7 +233,6 @@ def mutant_findings(mutants):
 
 def command_line(main):
     """Runs main(); a report that cannot be used ends with one sentence and status 2."""
-    import sys
     try:
         sys.exit(main())
     except (ReportError, OSError) as problem:
@@ -229,7 +242,6 @@ def command_line(main):
 
 def complain(report):
     """Prints the contradictions of the report; the exit status to end with."""
-    import sys
     found = contradictions(report)
     for sentence in found:
         print(f"the report contradicts itself: {sentence}", file=sys.stderr)
