@@ -50,7 +50,7 @@ void run(Trial<Dim>& trial) {
     params.solver = {.max_sweeps = 200000, .tolerance = tolerance};
     auto world = box.make(trial, params);
     copy_places<Dim>(falling, world);
-    const auto report = world.equilibrium();
+    const auto report = world.equilibrium(falling.impulse_cache());
     trial.holds("the heap is at rest", report.verdict == talus::Verdict::equilibrium ||
                                            report.speed < 1e-4 * report.load_speed);
     const auto walls = from_walls<Dim>(trial, report.data);
