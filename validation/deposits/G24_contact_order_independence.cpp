@@ -34,6 +34,7 @@ Spread spread(Trial<Dim>& trial, const Deposit<Dim>& deposit, const World<Dim>& 
     for (const Order& order : orders()) {
         auto params = settled.params();
         params.contact = law<Dim>(mu);
+        params.prepares = false;
         params.solver = {.max_sweeps = 200000,
                          .tolerance = tolerance,
                          .order = order.order,
@@ -68,7 +69,11 @@ void run(Trial<Dim>& trial) {
     const Deposit<Dim> deposit{Dim == 2 ? 40 : 48, Dim == 2 ? 8 : 4};
     auto settled = deposit.make(
         trial,
-        {.h = 4e-4, .contact = law<Dim>(0.3), .solver = {.max_sweeps = 5000, .tolerance = 1e-6}}, 0);
+        {.h = 4e-4,
+         .contact = law<Dim>(0.3),
+         .solver = {.max_sweeps = 2000, .tolerance = 1e-6},
+         .prepares = true},
+        0);
     settled.run(0.6);
 
     const double tolerance = 1e-10;

@@ -13,8 +13,7 @@ void run(Trial<Dim>& trial) {
 
     Series seen{"asymmetry", {}, {}}, bound{"ten times the speed left / g h", {}, {}, true};
     for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
-        auto params = settling_params<Dim>(0.5);
-        params.solver = {.max_sweeps = 200000, .tolerance = tolerance};
+        const auto params = resting_params<Dim>(0.5, tolerance);
         auto resting = box.make(trial, params);
         copy_places<Dim>(falling, resting);
         const auto report = resting.equilibrium(falling.impulse_cache());

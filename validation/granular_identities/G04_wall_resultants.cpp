@@ -45,10 +45,8 @@ void run(Trial<Dim>& trial) {
     trial.curves({"force of floor and walls", "t [s]", "force / weight",
                   {vertical, {"at rest", {0.0, settling_time}, {1.0, 1.0}, true}}});
 
-    auto params = settling_params<Dim>(0.5);
     const double tolerance = 1e-10;
-    params.solver = {.max_sweeps = 200000, .tolerance = tolerance};
-    auto world = box.make(trial, params);
+    auto world = box.make(trial, resting_params<Dim>(0.5, tolerance));
     copy_places<Dim>(falling, world);
     const auto report = world.equilibrium(falling.impulse_cache());
     trial.holds("the heap is at rest", report.verdict == talus::Verdict::equilibrium ||

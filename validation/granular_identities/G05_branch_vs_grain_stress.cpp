@@ -13,7 +13,7 @@ World<Dim> pressed(Trial<Dim>& trial, WorldParams<Dim> params) {
     const BoxOfBalls<Dim> box{Dim == 2 ? 5 : 3, Dim == 2 ? 5 : 3};
     auto world = box.make(trial, params);
     const double side = box.width(), lid_height = 0.27 * box.high + 0.05;
-    V<Dim> half = V<Dim>::Constant(0.499 * side);
+    V<Dim> half = V<Dim>::Constant(0.45 * side);  // clear of the walls
     half[Dim - 1] = 0.05;
     V<Dim> centre = V<Dim>::Constant(0.5 * side);
     centre[Dim - 1] = lid_height;
@@ -29,11 +29,9 @@ template <int Dim>
 void run(Trial<Dim>& trial) {
     auto settling = pressed<Dim>(trial, settling_params<Dim>(0.5));
     settling.system().forces.push_back(drag<Dim>(drag_rate));
-    settling.run(2 * settling_time);
-    auto params = settling_params<Dim>(0.5);
+    settling.run(settling_time);
     const double tolerance = 1e-10;
-    params.solver = {.max_sweeps = 200000, .tolerance = tolerance};
-    auto world = pressed<Dim>(trial, params);
+    auto world = pressed<Dim>(trial, resting_params<Dim>(0.5, tolerance));
     copy_places<Dim>(settling, world);
     // From the forces that hold it: a jam is one of the answers (C07), and not the cold one.
     const auto report = world.equilibrium(settling.impulse_cache());

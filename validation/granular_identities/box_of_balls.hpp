@@ -54,20 +54,30 @@ talus::ForceField<Dim> drag(double rate) {
             wrenches[i].force -= rate * bodies.mass(i) * bodies.velocity[i];
             // Point masses do not turn; balls have the same moment about every axis.
             if (bodies.inverse_inertia[i][0] > 0.0)
-                wrenches[i].torque -= rate / bodies.inverse_inertia[i][0] * bodies.spin[i];
+                wrenches[i].torque -= rate / bodies.inverse_inertia[i][0] * bodies.twist(i).angular;
         }
     };
 }
 
-/// How bodies fall and settle: 1e-6 is tight enough to come to rest.
+/// How bodies fall and settle: 1e-6 is tight enough to come to rest, and is not always reached on
+/// the way.
 template <int Dim>
 WorldParams<Dim> settling_params(double mu) {
     return {.h = 2e-3,
             .contact = law<Dim>(mu),
-            .solver = {.max_sweeps = 5000, .tolerance = 1e-6}};
+            .solver = {.max_sweeps = 2000, .tolerance = 1e-6},
+            .prepares = true};
+}
+/// The same for the step that is looked at, solved to `tolerance`.
+template <int Dim>
+WorldParams<Dim> resting_params(double mu, double tolerance) {
+    auto params = settling_params<Dim>(mu);
+    params.solver = {.max_sweeps = 200000, .tolerance = tolerance};
+    params.prepares = false;
+    return params;
 }
 inline constexpr double drag_rate = 5.0;  // [1/s]
-inline constexpr double settling_time = 4.0;  // [s]
+inline constexpr double settling_time = 8.0;  // [s]
 
 /// Puts the bodies of one world where those of another, made alike, have come to.
 template <int Dim>
