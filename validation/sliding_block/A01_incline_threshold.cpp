@@ -14,7 +14,7 @@ World<Dim> incline(Trial<Dim>& trial, double mu, double h) {
                               .contact = law<Dim>(mu),
                               .gravity = in_plane<Dim>(g * std::sin(slope), -g * std::cos(slope)),
                               // Near the threshold the corners of the box converge slowly.
-                              .solver = {.max_sweeps = 100000, .tolerance = 1e-14}});
+                              .solver = {.max_sweeps = 20000, .tolerance = 1e-14}});
     world.add_floor();
     return world;
 }
@@ -46,7 +46,7 @@ void run(Trial<Dim>& trial) {
     trial.within("reference, tan 20 deg", std::tan(slope), 0.3639702, 5e-8, "digits given");
     V<Dim> half = V<Dim>::Constant(0.2);
     half[Dim - 1] = 0.1;
-    for (const double h : {1e-2, 1e-4})
+    for (const double h : {1e-2, 1e-3, 1e-4})
         for (const double mu : {holding, yielding}) {
             auto block = incline(trial, mu, h);
             add_block<Dim>(block, 1.0, V<Dim>::Zero(), V<Dim>::Zero());
@@ -55,6 +55,8 @@ void run(Trial<Dim>& trial) {
                          [&](const std::string& label, const Worst& worst) {
                              trial.rounding(label, worst, 1.0 / std::sqrt(h), h);
                          });
+            // Many sweeps over many steps: left to the long run.
+            if (h < 1e-3 && !trial.full()) continue;
             auto box = incline(trial, mu, h);
             box.add(talus::Box<Dim>(half), box_inertia<Dim>(1.0, half),
                     {half[Dim - 1] * up<Dim>(), {}});

@@ -12,8 +12,7 @@ World<Dim> pulled(Trial<Dim>& trial, double h) {
     auto world = trial.world({.h = h, .contact = law<Dim>(mu)});
     world.add_floor();
     const auto block = add_block<Dim>(world, mass, V<Dim>::Zero(), V<Dim>::Zero());
-    push(world, block,
-         [](double t, const V<Dim>&) { return V<Dim>(rate * t * heading<Dim>()); });
+    push(world, block, [](double t, const V<Dim>&) { return V<Dim>(rate * t * heading<Dim>()); });
     return world;
 }
 
@@ -46,8 +45,8 @@ void run(Trial<Dim>& trial) {
         // Times, velocities and ways are of order 1; 600 or 1200 steps add their rounding errors.
         trial.rounding("velocity", v, 3.0, h);
         trial.rounding("excess of the way", excess, 3.0, h);
-        trial.curves({"velocity, h = t_0/" + std::to_string(count), "t [s]", "v [m/s]",
-                      {path, exact}});
+        trial.curves(
+            {"velocity, h = t_0/" + std::to_string(count), "t [s]", "v [m/s]", {path, exact}});
     }
     trial.order(
         "way at 3 t_0", halvings(release / 25, 6),
@@ -67,8 +66,7 @@ const Register a08(
               "(in space at 37 degrees from an axis) with a force that grows by 5 N every second. "
               "The step size divides the time t_0 at which the pull overcomes friction.",
      .reference = {"t_0 = frac{μ m g}{k} = 0.5886 s", "v = frac{k (t − t_0)^2}{2 m}",
-                   "x = frac{k (t − t_0)^3}{6 m}",
-                   "x_h − x = frac{k}{m} frac{h^2 (t − t_0)}{12}"},
+                   "x = frac{k (t − t_0)^3}{6 m}", "x_h − x = frac{k}{m} frac{h^2 (t − t_0)}{12}"},
      .compared = "The velocity at every step, the excess of the way over the exact one against its "
                  "formula, and the order in h of the way.",
      .kind = Class::R,

@@ -9,8 +9,7 @@ constexpr double speed = 2.0, mu = 0.3, h = 1e-3;
 /// Way until rest of a block launched over a floor, everything turned by `turn`; the way is turned
 /// back.
 V<3> way_to_rest(Trial<3>& trial, const V<3>& direction, const talus::Rotation<3>& turn) {
-    auto world = trial.world(
-        {.h = h, .contact = law<3>(mu), .gravity = turn * V<3>(0, 0, -g)});
+    auto world = trial.world({.h = h, .contact = law<3>(mu), .gravity = turn * V<3>(0, 0, -g)});
     world.add_plane(V<3>::Zero(), turn * up<3>());
     world.add(talus::Ball<3>(0.1), point_mass<3>(1.0), {turn * V<3>(0, 0, 0.1), {}},
               {V<3>(turn * (speed * direction))});
@@ -53,7 +52,9 @@ void run(Trial<3>& trial) {
     trial.within("spread of the distance", (longest - shortest) / d, 0.0, 1e-11,
                  "rounding of 700 steps", h);
     trial.rounding("distance", distance, 10.0, h);
-    trial.curves({"heading of the way against that of the launch", "launch [deg]", "way [deg]",
+    trial.curves({"heading of the way against that of the launch",
+                  "launch [deg]",
+                  "way [deg]",
                   {measured, exact, facets}});
 
     // The tangents of a contact follow from its normal: floors that lie at random in space give

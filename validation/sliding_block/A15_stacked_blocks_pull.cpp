@@ -28,8 +28,8 @@ void pull_stack(Trial<Dim>& trial, double pull, double h) {
     // The lower one is long enough for the way that the upper one slides on it.
     V<Dim> half = V<Dim>::Constant(1.5);
     half[Dim - 1] = 0.1;
-    const auto lower = world.add(talus::Box<Dim>(half), point_mass<Dim>(m_low),
-                                 {0.1 * up<Dim>(), {}}, {}, low);
+    const auto lower =
+        world.add(talus::Box<Dim>(half), point_mass<Dim>(m_low), {0.1 * up<Dim>(), {}}, {}, low);
     world.add(talus::Ball<Dim>(0.2), point_mass<Dim>(m_top), {0.4 * up<Dim>(), {}}, {}, top);
     push(world, lower, [=](double, const V<Dim>&) { return V<Dim>(pull * heading<Dim>()); });
 
@@ -57,8 +57,11 @@ void pull_stack(Trial<Dim>& trial, double pull, double h) {
     trial.solver("way of the lower" + at, x_low, g, 1e-14, h);
     trial.solver("way of the upper" + at, x_top, g, 1e-14, h);
     if (h == 1e-2)
-        trial.curves({"velocities" + at, "t [s]", "v [m/s]",
-                      {lower_path, top_path,
+        trial.curves({"velocities" + at,
+                      "t [s]",
+                      "v [m/s]",
+                      {lower_path,
+                       top_path,
                        {"lower, exact", {0.0, duration}, {0.0, a.low * duration}, true},
                        {"upper, exact", {0.0, duration}, {0.0, a.top * duration}, true}}});
 }
