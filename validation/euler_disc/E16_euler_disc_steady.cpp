@@ -108,7 +108,7 @@ const Register e16(
      .why = "The contact is taken at the midpoint while it runs along the rim: first order. The "
             "law of the disc's final whirl needs rolling resistance and is not compared.",
      .source = "Moffatt 2000; Kessler and O'Reilly 2002.",
-     .catches = {Fault::begin_point, Fault::short_arm, Fault::stale_inertia}},
+     .catches = {Fault::begin_point, Fault::short_arm}},
     nullptr, run, __FILE__);
 
 }  // namespace
