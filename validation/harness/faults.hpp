@@ -11,6 +11,7 @@ namespace validation {
 /// Mistakes that are put into the method on purpose, to see which case notices.
 enum class Fault {
     none,
+    control,  ///< no fault, but through the doors that the faults use: nobody may notice
     friction_off,
     faceted_cone,
     axis_bias,

@@ -16,7 +16,7 @@
 namespace validation {
 
 /// The law of the cases with a fault in it. The broken cones have no closed form: their contact is
-/// solved by a fixed-point iteration on the natural map, which is plain and slow.
+/// solved by a fixed-point iteration on the natural map.
 template <int Dim>
 struct FaultyLaw {
     Law<Dim> law;
@@ -34,11 +34,11 @@ struct FaultyLaw {
         if (!broken_cone()) return talus::Coulomb<Dim>{mu()}.solve(p, start);
         V<Dim> r = V<Dim>::Zero();
         const double rho = 1.0 / p.W.trace();
-        for (int k = 0; k < 5000; ++k) {
+        for (int k = 0; k < 300; ++k) {
             const V<Dim> next = projected(p.velocity(r), r, rho);
             const double change = (next - r).norm();
             r = next;
-            if (change <= 1e-16 * r.norm()) break;
+            if (change <= 1e-15 * r.norm()) break;
         }
         return r;
     }
@@ -87,6 +87,9 @@ class FaultySolver {
     FaultySolver(const talus::GaussSeidelParams& params, Fault fault)
         : fault_(fault), solver_(params) {
         if (fault == Fault::residual_ignored) solver_.params.max_sweeps = 2;
+        // A wrong problem may have no solution: a mutant is not worth a million sweeps.
+        const int most = FaultyLaw<Dim>{{}, fault}.broken_cone() ? 500 : 200000;
+        solver_.params.max_sweeps = std::min(solver_.params.max_sweeps, most);
     }
     const talus::SolveReport& solve(const talus::ContactProblem<Dim, Law<Dim>>& problem,
                                     std::span<V<Dim>> r) {

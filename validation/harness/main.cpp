@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -157,10 +158,20 @@ void print_matrix(const std::vector<Cell>& cells, const MatrixVerdict& verdict) 
     }
     flush();
     std::printf("\n\n");
+    const auto longest =
+        std::max_element(cells.begin(), cells.end(),
+                         [](const Cell& a, const Cell& b) { return a.seconds < b.seconds; });
+    if (longest != cells.end())
+        std::printf("longest: %s %dD under %s, %.1f s\n", longest->of->text.id.c_str(),
+                    longest->dim, std::string(text_of(longest->fault).name).c_str(),
+                    longest->seconds);
     for (const Fault fault : verdict.survivors)
         std::printf("SURVIVED  no case noticed: %s\n", std::string(text_of(fault).title).c_str());
     for (const Case* c : verdict.idle)
         std::printf("IDLE      %s %s noticed no fault\n", c->text.id.c_str(), c->text.name.c_str());
+    for (const Cell* cell : verdict.unsound)
+        std::printf("UNSOUND   %s %dD notices something (%s) where nothing is wrong\n",
+                    cell->of->text.id.c_str(), cell->dim, cell->by.c_str());
     for (const Cell* cell : verdict.broken_claims)
         std::printf("BROKEN    %s %dD claims to notice %s and does not\n",
                     cell->of->text.id.c_str(), cell->dim,

@@ -127,13 +127,15 @@ ordered_json matrix_of(const std::vector<Cell>& cells) {
     ordered_json faults = ordered_json::array(), list = ordered_json::array();
     for (const FaultText& text : fault_texts)
         faults.push_back({{"name", std::string(text.name)}, {"title", std::string(text.title)}});
-    for (const Cell& cell : cells)
+    for (const Cell& cell : cells) {
+        if (cell.fault == Fault::control) continue;
         list.push_back({{"case", cell.of->text.id},
                         {"dim", cell.dim},
                         {"fault", std::string(text_of(cell.fault).name)},
                         {"claimed", cell.claimed},
                         {"outcome", cell.caught ? "caught" : "survived"},
                         {"by", cell.by}});
+    }
     return {{"faults", faults}, {"cells", list}};
 }
 

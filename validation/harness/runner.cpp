@@ -108,7 +108,8 @@ std::vector<Cell> run_mutants(const std::vector<Job>& jobs, const std::vector<Re
                               double patience, const RunOptions& options,
                               const std::function<void(std::size_t, std::size_t)>& done) {
     std::vector<Cell> cells;
-    for (std::size_t k = 0; k < jobs.size(); ++k)
+    for (std::size_t k = 0; k < jobs.size(); ++k) {
+        cells.push_back({jobs[k].of, jobs[k].dim, Fault::control, false, false, {}, 0.0});
         for (const FaultText& text : fault_texts) {
             const auto& claims = jobs[k].of->text.catches;
             const bool claimed =
@@ -116,6 +117,7 @@ std::vector<Cell> run_mutants(const std::vector<Job>& jobs, const std::vector<Re
             if (claimed || sound[k].seconds <= patience)
                 cells.push_back({jobs[k].of, jobs[k].dim, text.fault, claimed, false, {}, 0.0});
         }
+    }
     std::mutex mutex;
     std::size_t finished = 0;
     in_parallel(cells.size(), options.jobs, [&](std::size_t k) {
@@ -144,6 +146,10 @@ MatrixVerdict judge(const std::vector<Cell>& cells) {
     for (const Cell& cell : cells) {
         all.insert(cell.of);
         if (!cell.caught) continue;
+        if (cell.fault == Fault::control) {
+            verdict.unsound.push_back(&cell);
+            continue;
+        }
         caught.insert(cell.fault);
         busy.insert(cell.of);
         kept.insert({cell.of, cell.fault});

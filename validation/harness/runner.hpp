@@ -56,8 +56,8 @@ struct Job {
 std::vector<Result> run_all(const std::vector<Job>& jobs, const RunOptions& options,
                             const std::function<void(std::size_t, const Result&)>& done);
 
-/// Runs the jobs under every fault: those that a case claims, and the others too where the case
-/// took less than `patience` seconds without a fault.
+/// Runs the jobs under the control and under the faults: those that a case claims, and the others
+/// too where the case took less than `patience` seconds without a fault.
 std::vector<Cell> run_mutants(const std::vector<Job>& jobs, const std::vector<Result>& sound,
                               double patience, const RunOptions& options,
                               const std::function<void(std::size_t, std::size_t)>& done);
@@ -68,7 +68,10 @@ struct MatrixVerdict {
     std::vector<Fault> survivors;
     std::vector<const Case*> idle;
     std::vector<const Cell*> broken_claims;
-    bool good() const { return survivors.empty() && idle.empty() && broken_claims.empty(); }
+    std::vector<const Cell*> unsound;  ///< noticed the control, in which nothing is wrong
+    bool good() const {
+        return survivors.empty() && idle.empty() && broken_claims.empty() && unsound.empty();
+    }
 };
 MatrixVerdict judge(const std::vector<Cell>& cells);
 

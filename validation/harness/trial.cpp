@@ -170,7 +170,8 @@ void TrialRecord::close() {
 template <int Dim>
 World<Dim> Trial<Dim>::world(const WorldParams<Dim>& params, talus::MaterialTable<Law<Dim>> laws) {
     typename World<Dim>::Listener listener;
-    listener.solved = [this, tolerance = params.solver.tolerance](double residual) {
+    if (!params.prepares)
+        listener.solved = [this, tolerance = params.solver.tolerance](double residual) {
         solved(residual, tolerance);
     };
     if (draws())

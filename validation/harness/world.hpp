@@ -33,6 +33,7 @@ struct WorldParams {
     V<Dim> gravity = -g * up<Dim>();  ///< [m/s^2]
     talus::StepParams step = {.contact_tolerance = touching};
     talus::GaussSeidelParams solver = {.max_sweeps = 2000, .tolerance = 1e-14};
+    bool prepares = false;  ///< makes a state for another world: its residuals are not judged
 };
 
 namespace detail {
