@@ -79,11 +79,9 @@ void run(Trial<Dim>& trial) {
     trial.order(
         "leaving angle at 4.5 g R, mean over shifted starts", halvings(2e-3, 6),
         [&](double h) {
-            constexpr int starts = 8;
-            double sum = 0.0;
-            for (int k = 0; k < starts; ++k)
-                sum += ride(trial, h, 4.5 * g, 0.0, (k + 0.37) / starts).leaves - leaving(4.5);
-            return sum / starts;
+            return mean_over_shifts(8, [&](double shift) {
+                return ride(trial, h, 4.5 * g, 0.0, shift).leaves - leaving(4.5);
+            });
         },
         first_order);
 }
@@ -106,7 +104,7 @@ const Register e12(
             "drifted by order h, opens later by a time of order h^{1/3} and is not compared. The "
             "order is that of the mean over eight shifted starts.",
      .source = "Classical.",
-     .catches = {Fault::pulling_contact, Fault::begin_point}},
+     .catches = {Fault::pulling_contact, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
 }  // namespace

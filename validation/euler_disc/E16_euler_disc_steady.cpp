@@ -75,6 +75,8 @@ void run(Trial<3>& trial) {
         const double h = turn / 1000;
         const Rolling seen = roll(trial, h, option);
         trial.rounding("slip" + name, seen.slip, 0.0, 10.0, h);
+        trial.within("mean normal force by weight" + name, seen.normal, 1.0, 1e-3,
+                     "what the centre's drift of first order leaves of it", h, Class::D1);
         trial.curves({"tilt" + name,
                       "turns",
                       "α [deg]",
@@ -88,7 +90,6 @@ void run(Trial<3>& trial) {
         order("tilt", &Rolling::tilt, 0.0);
         order("phase after five turns", &Rolling::phase, 0.0);
         order("mean friction by weight", &Rolling::friction, 0.0);
-        order("mean normal force by weight", &Rolling::normal, 1.0);
     }
 }
 
@@ -107,7 +108,7 @@ const Register e16(
      .why = "The contact is taken at the midpoint while it runs along the rim: first order. The "
             "law of the disc's final whirl needs rolling resistance and is not compared.",
      .source = "Moffatt 2000; Kessler and O'Reilly 2002.",
-     .catches = {Fault::begin_point, Fault::short_arm, Fault::stale_inertia}},
+     .catches = {Fault::begin_point, Fault::short_arm}},
     nullptr, run, __FILE__);
 
 }  // namespace

@@ -28,7 +28,7 @@ Frame<Dim> random_frame(std::mt19937_64& random) {
     return frame;
 }
 
-/// A round body launched towards or along a floor.
+/// A body launched towards or along a floor: a ball, or a box that comes down on a corner.
 template <int Dim>
 struct Launch {
     std::string name;
@@ -37,6 +37,7 @@ struct Launch {
     V<Dim> velocity;
     W<Dim> spin;
     double h, duration;
+    bool box = false;
 };
 constexpr double radius = 0.2;
 
@@ -49,9 +50,20 @@ Eigen::VectorXd outcome(Trial<Dim>& trial, const Launch<Dim>& launch, const Fram
     world.add_obstacle(
         talus::HalfSpace<Dim>(up<Dim>()),
         talus::PrescribedMotion<Dim>::uniform(frame.pose(), {frame.boost, W<Dim>::Zero()}));
-    world.add(talus::Ball<Dim>(radius), round_inertia<Dim>(1.3, radius),
-              {frame.pose().point_world(launch.height * up<Dim>()), {}},
-              frame.carry(launch.velocity, launch.spin));
+    const auto twist_of_frame = frame.carry(launch.velocity, launch.spin);
+    if (launch.box) {
+        V<Dim> half = V<Dim>::Constant(0.05);
+        half[0] = 0.2, half[Dim - 1] = 0.1;
+        W<Dim> attitude = W<Dim>::Constant(0.4);
+        attitude[0] = 0.7;
+        world.add(talus::Box<Dim>(half), box_inertia<Dim>(1.3, half),
+                  frame.pose() * talus::Pose<Dim>{launch.height * up<Dim>(),
+                                                  talus::Rotation<Dim>::exp(attitude)},
+                  twist_of_frame);
+    } else {
+        world.add(talus::Ball<Dim>(radius), round_inertia<Dim>(1.3, radius),
+                  {frame.pose().point_world(launch.height * up<Dim>()), {}}, twist_of_frame);
+    }
     const auto way = [&](const World<Dim>& w) {
         return frame.pose(w.time()).point_body(w.bodies().position[1]);
     };
@@ -73,12 +85,14 @@ void run(Trial<Dim>& trial) {
         skew = {2.4, 1.8, -2.0};
         along = {1.8, -0.9, 0.0};
     }
-    const std::vector<Launch<Dim>> launches{
+    std::vector<Launch<Dim>> launches{
         {"slide to roll", law<Dim>(0.3), radius, along, W<Dim>::Zero(), 3e-3, 0.5},
         {"backspin", law<Dim>(0.3), radius, along, rolling_spin<Dim>(-40.0), 3e-3, 0.5},
         {"oblique impact, slipping", law<Dim>(0.1, 0.8), 0.3, skew, W<Dim>::Zero(), 1e-2, 0.15},
         {"oblique impact, sticking", law<Dim>(0.9, 0.8, 0.5), 0.3, skew, W<Dim>::Zero(), 1e-2,
          0.15}};
+    launches.push_back(
+        {"box on a corner", law<Dim>(0.4, 0.5), 0.3, skew, W<Dim>::Zero(), 3e-3, 0.12, true});
     auto random = trial.rng();
     for (const Launch<Dim>& launch : launches) {
         Series seen{"in another frame", {}, {}}, reference{"in the first frame", {}, {}, true};
@@ -100,17 +114,19 @@ const Register e18(
      .title = "The same in every frame",
      .gate = 1,
      .setup = "A ball that begins to roll, one with backspin, and two that strike the floor at an "
-              "angle, slipping and sticking with restitution; each also with everything turned "
-              "and shifted at random and carried along at some metres per second, in eight "
-              "frames.",
+              "angle, slipping and sticking with restitution, and a box that strikes with a "
+              "corner; each also with everything turned and shifted at random and carried along "
+              "at some metres per second, in eight frames.",
      .reference = {"x' = R x + s + V t",
                    "the same way, velocity and spin in the axes of the frame"},
      .compared = "Way, velocity and spin at the end, in the axes of the frame.",
      .kind = Class::R,
      .why = "Nothing in the method prefers a direction, a place or a frame: rounding only. In "
-            "space a contact whose tangents bias friction would show.",
+            "space a contact whose tangents bias friction would show, and an inertia tensor that "
+            "is not turned with the box.",
      .source = "Galilei 1632; derived here.",
-     .catches = {Fault::axis_bias, Fault::faceted_cone, Fault::obstacle_velocity_forgotten}},
+     .catches = {Fault::axis_bias, Fault::faceted_cone, Fault::obstacle_velocity_forgotten,
+                 Fault::stale_inertia}},
     run<2>, run<3>, __FILE__);
 
 }  // namespace
