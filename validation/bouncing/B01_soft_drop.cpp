@@ -79,7 +79,7 @@ void run(Trial<Dim>& trial) {
     }
     curves.series = {curves.series.front(), exact};
     trial.curves(curves);
-    // The height of rest is spread evenly over (-h v, 0): on average h v / 2 for duration - t_c.
+    // Never more than h v away, for no longer than the whole run.
     trial.order(
         "position, L1", halvings(9.7e-3, trial.full() ? 8 : 6),
         [&](double h) { return position_error<Dim>(trial, h); }, first_order,

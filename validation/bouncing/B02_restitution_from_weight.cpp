@@ -29,7 +29,8 @@ double rebound_speed(Trial<Dim>& trial, double e) {
 
 template <int Dim>
 void run(Trial<Dim>& trial) {
-    const V<Dim> line = in_plane<Dim>(0.6, 0.8);
+    V<Dim> line = in_plane<Dim>(0.6, 0.8);
+    if constexpr (Dim == 3) line = {0.48, 0.36, 0.8};
     Series wall{"ball and floor", {}, {}}, pair{"two balls", {}, {}};
     const std::array<std::array<double, 2>, 5> weights{
         {{1.0 / 2, 1.0}, {5.0 / 9, 0.8}, {2.0 / 3, 0.5}, {0.8, 0.25}, {1.0, 0.0}}};

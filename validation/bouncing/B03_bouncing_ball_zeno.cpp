@@ -136,7 +136,7 @@ const Register b03(
             "order g h is multiplied by e in each step, so 1e-12 is asked where there are steps "
             "enough for it.",
      .source = "Classical; Acary and Brogliato 2008.",
-     .catches = {Fault::loose_contact, Fault::restitution_weight, Fault::end_point_drift}},
+     .catches = {Fault::loose_contact, Fault::restitution_weight}},
     run<2>, run<3>, __FILE__);
 
 }  // namespace

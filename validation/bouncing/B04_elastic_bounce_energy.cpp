@@ -52,7 +52,7 @@ void bounce(Trial<Dim>& trial, double h) {
     trial.holds("one impact per period", impacts == (step + k) / period,
                 std::to_string(impacts) + " impacts", h);
     // From k (k + 1) h^2 >= t_c^2 > (k - 1) k h^2.
-    trial.within("half a period", (k + 0.5) * h, fall.duration() + h / 2,
+    trial.within("reference, half a period", (k + 0.5) * h, fall.duration() + h / 2,
                  h / 2 + h * h / (8 * fall.duration()), "the step in which the ball arrives", h,
                  Class::D1);
     if (h == 1e-2) trial.curves({"height of the lowest point", "t [s]", "z [m]", {path, exact}});
