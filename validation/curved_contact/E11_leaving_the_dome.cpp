@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <map>
+
 #include "curved_contact/curves.hpp"
 
 namespace validation {
@@ -132,9 +134,16 @@ void run(Trial<Dim>& trial) {
         const double v_x = leave(trial, h, false, 0.0, 0.0);
         // Rounding of some thousand steps, passed on from hop to hop.
         trial.rounding("v_x without friction, by hand", v_x, v_x_by_hand(h), 100.0, h);
-        // The catalogue's bound of 1 h does not hold for its own number at the smallest step.
-        trial.within("v_x without friction", v_x, exact.v_x, 1.5 * h, "1.5 h, irregular", h,
-                     Class::D1);
+        // The envelope of 1 h does not hold for the catalogue's own number at the smallest step,
+        // 1.7e-4 at h = 1.25e-4, nor for the program written out by hand: there its digits count.
+        if (h > 2e-4)
+            trial.within("v_x without friction", v_x, exact.v_x, h, "1 h, irregular", h, Class::D1);
+        if (h == steps.front())
+            trial.within("v_x without friction, off by [m/s]", v_x - exact.v_x, 3.8e-3, 5e-5,
+                         "digits an independent program gave", h, Class::D1);
+        if (h == steps.back())
+            trial.within("v_x without friction, off by [m/s]", v_x - exact.v_x, 1.7e-4, 5e-6,
+                         "digits an independent program gave", h, Class::D1);
     }
     Series path{"centre", {}, {}}, flight{"exact flight", {}, {}, true};
     leave(trial, 1e-3, false, 0.0, 0.0, &path);
@@ -156,15 +165,22 @@ void run(Trial<Dim>& trial) {
             return sum / starts;
         },
         first_order_irregular);
-    trial.order(
-        "v_x at friction 1, mean over shifted starts", steps,
-        [&](double h) {
-            double sum = 0.0;
-            for (int k = 0; k < starts; ++k)
-                sum += leave(trial, h, true, mu, shift(k) * h) - rolled.v_x;
-            return sum / starts;
-        },
-        first_order_irregular);
+    std::map<double, double> errors;  // by step size
+    const auto rolled_error = [&](double h) {
+        const auto known = errors.find(h);
+        if (known != errors.end()) return known->second;
+        double sum = 0.0;
+        for (int k = 0; k < starts; ++k)
+            sum += leave(trial, h, true, mu, shift(k) * h) - rolled.v_x;
+        return errors[h] = sum / starts;
+    };
+    trial.order("v_x at friction 1, mean over shifted starts", steps, rolled_error,
+                first_order_irregular);
+    // 2 % of friction change v_x by 6 to 9 parts in 10^4: five times what may be left.
+    const double finest = steps.back();
+    trial.within("v_x at friction 1, extrapolated to h = 0",
+                 rolled.v_x + 2 * rolled_error(finest) - rolled_error(2 * finest), rolled.v_x,
+                 finest, "h, what the mean's term of first order leaves", finest, Class::D1);
 }
 
 const Register e11(
@@ -181,7 +197,8 @@ const Register e11(
      .compared =
          "Horizontal velocity in flight against the closed form and, at friction 1, against "
          "ordinary differential equations in two phases: the error at each step size, and "
-         "the order of its mean over 16 starts shifted by fractions of a step. Without "
+         "the order of its mean over 16 starts shifted by fractions of a step, at friction 1 also "
+         "extrapolated to h = 0. Without "
          "friction also against the same method written out by hand.",
      .kind = Class::D1,
      .why = "Over the convex side the body hops by small amounts and its impulses are right on "

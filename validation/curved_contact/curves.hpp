@@ -5,6 +5,7 @@
 
 #include "harness/case.hpp"
 #include "harness/gsl.hpp"
+#include "harness/observed.hpp"
 
 /// Bodies whose centre moves on a circle of one metre: inside a bowl, or over a dome.
 namespace validation {

@@ -43,7 +43,8 @@ Averages averages(const World<Dim>& world, const Deposit<Dim>& deposit) {
     const auto carries = [&](std::size_t c) { return data.impulse[c][0] > 0.0; };
     double ends = 0.0;
     for (std::size_t c = 0; c < data.contact_count(); ++c)
-        if (carries(c)) ends += bodies.is_obstacle(static_cast<std::size_t>(data.contacts.key[c].a)) ? 1 : 2;
+        if (carries(c))
+            ends += bodies.is_obstacle(static_cast<std::size_t>(data.contacts.key[c].a)) ? 1 : 2;
     return {solid / (std::pow(deposit.width(), Dim - 1) * (top - bottom)), ends / deposit.count,
             talus::penetration<Dim>(data.contacts, carries).mean / (2 * deposit.mean)};
 }
@@ -56,12 +57,11 @@ void run(Trial<Dim>& trial) {
     std::array<std::vector<Averages>, 3> seen;
     for (std::size_t k = 0; k < steps.size(); ++k)
         for (int seed = 0; seed < realisations; ++seed) {
-            auto world = deposit.make(
-                trial,
-                {.h = steps[k],
-                 .contact = law<Dim>(0.3),
-                 .solver = {.max_sweeps = 2000, .tolerance = 1e-4}},
-                static_cast<std::uint64_t>(seed));
+            auto world = deposit.make(trial,
+                                      {.h = steps[k],
+                                       .contact = law<Dim>(0.3),
+                                       .solver = {.max_sweeps = 2000, .tolerance = 1e-4}},
+                                      static_cast<std::uint64_t>(seed));
             world.run(0.8);
             seen[k].push_back(averages<Dim>(world, deposit));
         }
@@ -87,10 +87,9 @@ void run(Trial<Dim>& trial) {
         const double overlap = mean_of(k, &Averages::overlap).first;
         overlaps.x.push_back(steps[k]);
         overlaps.y.push_back(overlap);
-        const double fall = std::sqrt(2 * g * deposit.pitch * deposit.count /
-                                      std::pow(deposit.across, Dim - 1));
-        trial.within("mean overlap / diameter", overlap, 0.0,
-                     steps[k] * fall / (2 * deposit.mean),
+        const double fall =
+            std::sqrt(2 * g * deposit.pitch * deposit.count / std::pow(deposit.across, Dim - 1));
+        trial.within("mean overlap / diameter", overlap, 0.0, steps[k] * fall / (2 * deposit.mean),
                      "h times the speed of the highest fall, over the diameter", steps[k]);
     }
     for (const std::size_t k : {0u, 1u}) {
@@ -101,9 +100,12 @@ void run(Trial<Dim>& trial) {
         trial.within("order of the mean overlap", order, 1.0, 0.1 + 3 * error,
                      "0.1 and 3 standard errors", steps[k + 1], Class::X);
     }
-    trial.curves({"overlap over step size", "h [s]", "mean overlap / diameter",
-                  {overlaps,
-                   {"proportional", {0.0, steps[0]}, {0.0, overlaps.y[2] / steps[2] * steps[0]}, true}}});
+    trial.curves(
+        {"overlap over step size",
+         "h [s]",
+         "mean overlap / diameter",
+         {overlaps,
+          {"proportional", {0.0, steps[0]}, {0.0, overlaps.y[2] / steps[2] * steps[0]}, true}}});
 }
 
 const Register g23(

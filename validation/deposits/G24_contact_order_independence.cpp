@@ -27,24 +27,23 @@ struct Spread {
 
 /// One step of the bodies placed as in `settled`, moving as `velocity` says, in every order.
 template <int Dim>
-Spread spread(Trial<Dim>& trial, const Deposit<Dim>& deposit, const World<Dim>& settled,
-              double mu, double tolerance, bool moving) {
+Spread spread(Trial<Dim>& trial, const Deposit<Dim>& deposit, const World<Dim>& settled, double mu,
+              double tolerance, bool moving) {
     std::vector<std::vector<talus::Twist<Dim>>> ends;
     std::vector<std::vector<V<Dim>>> impulses;
     for (const Order& order : orders()) {
         auto params = settled.params();
         params.contact = law<Dim>(mu);
         params.prepares = false;
-        params.solver = {.max_sweeps = 200000,
-                         .tolerance = tolerance,
-                         .order = order.order,
-                         .seed = order.seed};
+        params.solver = {
+            .max_sweeps = 200000, .tolerance = tolerance, .order = order.order, .seed = order.seed};
         auto world = deposit.make(trial, params, 0);
         world.bodies().position = settled.bodies().position;
         world.bodies().rotation = settled.bodies().rotation;
         if (moving)
             for (std::size_t i = Deposit<Dim>::walls; i < world.bodies().count(); ++i)
-                world.bodies().velocity[i] = V<Dim>::Unit(0) * 0.1 * std::sin(static_cast<double>(i));
+                world.bodies().velocity[i] =
+                    V<Dim>::Unit(0) * 0.1 * std::sin(static_cast<double>(i));
         world.step();
         ends.push_back(world.data().end);
         impulses.push_back(world.data().impulse);
@@ -55,11 +54,11 @@ Spread spread(Trial<Dim>& trial, const Deposit<Dim>& deposit, const World<Dim>& 
     for (const auto& r : impulses[0]) strongest = std::max(strongest, r.norm());
     for (std::size_t k = 1; k < ends.size(); ++k) {
         for (std::size_t i = 0; i < ends[k].size(); ++i)
-            result.velocity = std::max(
-                result.velocity, (ends[k][i].linear - ends[0][i].linear).norm() / fastest);
+            result.velocity =
+                std::max(result.velocity, (ends[k][i].linear - ends[0][i].linear).norm() / fastest);
         for (std::size_t c = 0; c < impulses[k].size(); ++c)
-            result.impulse = std::max(result.impulse,
-                                      (impulses[k][c] - impulses[0][c]).norm() / strongest);
+            result.impulse =
+                std::max(result.impulse, (impulses[k][c] - impulses[0][c]).norm() / strongest);
     }
     return result;
 }
@@ -67,24 +66,25 @@ Spread spread(Trial<Dim>& trial, const Deposit<Dim>& deposit, const World<Dim>& 
 template <int Dim>
 void run(Trial<Dim>& trial) {
     const Deposit<Dim> deposit{Dim == 2 ? 40 : 48, Dim == 2 ? 8 : 4};
-    auto settled = deposit.make(
-        trial,
-        {.h = 4e-4,
-         .contact = law<Dim>(0.3),
-         .solver = {.max_sweeps = 2000, .tolerance = 1e-6},
-         .prepares = true},
-        0);
+    auto settled = deposit.make(trial,
+                                {.h = 4e-4,
+                                 .contact = law<Dim>(0.3),
+                                 .solver = {.max_sweeps = 2000, .tolerance = 1e-6},
+                                 .prepares = true},
+                                0);
     settled.run(0.6);
 
     const double tolerance = 1e-10;
     // Velocities answer to the residual through the softest motion of the heap.
     const double softness = 1e3;
     const Spread smooth = spread<Dim>(trial, deposit, settled, 0.0, tolerance, false);
-    trial.solver("end velocities, no friction, from rest", smooth.velocity, 0.0, softness, tolerance);
+    trial.solver("end velocities, no friction, from rest", smooth.velocity, 0.0, softness,
+                 tolerance);
     const Spread struck = spread<Dim>(trial, deposit, settled, 0.0, tolerance, true);
     trial.solver("end velocities, no friction, shaken", struck.velocity, 0.0, softness, tolerance);
     const Spread rough = spread<Dim>(trial, deposit, settled, 0.3, tolerance, false);
-    trial.solver("end velocities, friction 0.3, from rest", rough.velocity, 0.0, softness, tolerance);
+    trial.solver("end velocities, friction 0.3, from rest", rough.velocity, 0.0, softness,
+                 tolerance);
     trial.note("Impulses with friction differ by up to " + std::to_string(rough.impulse) +
                " of the largest: self-stress, chosen by start and order.");
 }

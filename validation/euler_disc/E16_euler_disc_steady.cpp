@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <map>
+
 #include "harness/case.hpp"
 
 namespace validation {
@@ -31,8 +33,8 @@ struct Rolling {
     double phase = 0.0;     ///< of the axis about the vertical, at the end [rad]
     double slip = 0.0;      ///< largest [m/s]
     double friction = 0.0;  ///< by weight, mean
-    double normal = 0.0;    ///< by weight, mean
-    Series tilts{"measured", {}, {}};
+    double normal = 0.0;    ///< by weight, largest deviation from 1 after the first step
+    Series tilts{"measured", {}, {}}, normals{"measured", {}, {}};
 };
 
 Rolling roll(Trial<3>& trial, double h, talus::Gyroscopic option) {
@@ -52,13 +54,19 @@ Rolling roll(Trial<3>& trial, double h, talus::Gyroscopic option) {
         for (std::size_t c = 0; c < w.data().contact_count(); ++c)
             seen.slip = std::max(seen.slip, end_velocity(w.data(), c).template tail<2>().norm());
         const V<3> r = impulse_on(w.data(), 1);
+        const double normal = r[2] / (mass * g * h);
         seen.friction += r.head<2>().norm() / (mass * g * h);
-        seen.normal += r[2] / (mass * g * h);
+        // The first step sees half of the contact's way along the rim. No mean here: the sum of
+        // the normal impulses says no more than that the disc ends without falling or rising.
+        if (count > 0.0) {
+            seen.normal = std::max(seen.normal, std::abs(normal - 1));
+            seen.normals.x.push_back(w.time() / turn), seen.normals.y.push_back(normal);
+        }
         ++count;
         seen.tilts.x.push_back(w.time() / turn), seen.tilts.y.push_back(tilt / degree);
     });
     seen.phase = azimuth - om * world.time();
-    seen.friction /= count, seen.normal /= count;
+    seen.friction /= count;
     return seen;
 }
 
@@ -79,16 +87,27 @@ void run(Trial<3>& trial) {
                       "turns",
                       "α [deg]",
                       {seen.tilts, {"exact", {0.0, turns}, {20.0, 20.0}, true}}});
-        const auto order = [&](const std::string& what, double Rolling::*error, double exact) {
+        trial.curves({"normal force by weight" + name,
+                      "turns",
+                      "N / (m g)",
+                      {seen.normals, {"exact", {0.0, turns}, {1.0, 1.0}, true}}});
+        std::map<double, Rolling> rolled;  // by step size
+        const auto order = [&](const std::string& what, double Rolling::*error) {
             trial.order(
                 what + name, halvings(turn / 500, 5),
-                [&](double step) { return roll(trial, step, option).*error - exact; }, first_order);
+                [&](double step) {
+                    auto at = rolled.find(step);
+                    if (at == rolled.end())
+                        at = rolled.emplace(step, roll(trial, step, option)).first;
+                    return at->second.*error;
+                },
+                first_order);
         };
-        order("drift of the centre", &Rolling::drift, 0.0);
-        order("tilt", &Rolling::tilt, 0.0);
-        order("phase after five turns", &Rolling::phase, 0.0);
-        order("mean friction by weight", &Rolling::friction, 0.0);
-        order("mean normal force by weight", &Rolling::normal, 1.0);
+        order("drift of the centre", &Rolling::drift);
+        order("tilt", &Rolling::tilt);
+        order("phase after five turns", &Rolling::phase);
+        order("mean friction by weight", &Rolling::friction);
+        order("normal force by weight, worst of all steps", &Rolling::normal);
     }
 }
 
@@ -102,12 +121,15 @@ const Register e16(
      .reference = {"spin Ω sin α along the diameter through the contact",
                    "Ω^2 = frac{4 g}{R sin α}, Ω = 33.8718 rad/s", "N = m g, no friction"},
      .compared = "Slip at every step; the orders of the centre's drift, of the tilt, of the phase "
-                 "of the precession and of the mean friction, all of which vanish with h.",
+                 "of the precession, of the mean friction and of the normal force's largest "
+                 "deviation from the weight, all of which vanish with h.",
      .kind = Class::D1,
      .why = "The contact is taken at the midpoint while it runs along the rim: first order. The "
-            "law of the disc's final whirl needs rolling resistance and is not compared.",
+            "law of the disc's final whirl needs rolling resistance and is not compared. The "
+            "moment of the reaction points along a horizontal diameter, where an inertia tensor "
+            "that was not turned with the disc is right too: E18 looks for that mistake.",
      .source = "Moffatt 2000; Kessler and O'Reilly 2002.",
-     .catches = {Fault::begin_point, Fault::short_arm, Fault::stale_inertia}},
+     .catches = {Fault::begin_point, Fault::short_arm}},
     nullptr, run, __FILE__);
 
 }  // namespace

@@ -136,7 +136,7 @@ void run(Trial<Dim>& trial) {
         trial.order(
             "angle at 5 mm, mean over shifted starts" + at, halvings(2e-3, 6),
             [&](double step) {
-                return mean_over_starts([&](double shift) {
+                return mean_over_shifts(16, [&](double shift) {
                     return fall(trial, given.mu, step, shift * step).way - exact.way;
                 });
             },

@@ -122,15 +122,16 @@ void run(Trial<Dim>& trial) {
     trial.order(
         "time of landing, mean over shifted starts", halvings(2e-3, 6),
         [&](double h) {
-            return mean_over_starts(
-                [&](double shift) { return std::abs(fall(trial, h, shift * h).time - t_land); });
+            return mean_over_shifts(16, [&](double shift) {
+                return std::abs(fall(trial, h, shift * h).time - t_land);
+            });
         },
         second_order_irregular);
     trial.order(
         "rate at landing, mean over shifted starts", halvings(2e-3, 6),
         [&](double h) {
-            return mean_over_starts(
-                [&](double shift) { return std::abs(fall(trial, h, shift * h).rate - rate); });
+            return mean_over_shifts(
+                16, [&](double shift) { return std::abs(fall(trial, h, shift * h).rate - rate); });
         },
         second_order_irregular);
 }

@@ -5,6 +5,7 @@
 
 #include "harness/case.hpp"
 #include "harness/gsl.hpp"
+#include "harness/observed.hpp"
 
 /// A uniform rod of one metre and one kilogram that falls in a vertical plane, one end (the foot)
 /// on the floor. Angles are from the vertical.
@@ -37,16 +38,6 @@ inline std::vector<double> pivoted(double start, double delay) {
                },
                y, times)
         .back();
-}
-
-/// Mean of error(shift) over sixteen starts shifted by fractions of a step: the foot hops a little,
-/// and the errors are regular on average only.
-template <class Error>
-double mean_over_starts(Error error) {
-    constexpr int count = 16;
-    double sum = 0.0;
-    for (int k = 0; k < count; ++k) sum += error((k + 0.37) / count);
-    return sum / count;
 }
 
 template <int Dim>

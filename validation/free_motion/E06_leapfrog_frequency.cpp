@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "free_motion/springs.hpp"
+#include "harness/case.hpp"
+#include "harness/observed.hpp"
 
 namespace validation {
 namespace {
@@ -29,7 +30,7 @@ World<Dim> oscillator(Trial<Dim>& trial, double h, bool across) {
     const auto body =
         world.add(talus::Ball<Dim>(0.1), point_mass<Dim>(2.0), {in_plane<Dim>(1.0, 0.0), {}},
                   {in_plane<Dim>(0.0, across ? w : 0.0)});
-    add_spring(world, body, [](const V<Dim>& x) { return V<Dim>(-2.0 * w * w * x); });
+    push(world, body, [](double, const V<Dim>& x) { return V<Dim>(-2.0 * w * w * x); });
     return world;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "free_motion/springs.hpp"
+#include "harness/case.hpp"
+#include "harness/observed.hpp"
 
 namespace validation {
 namespace {
@@ -61,8 +62,8 @@ void run(Trial<Dim>& trial) {
         const auto body =
             flight.add(talus::Ball<Dim>(0.3), talus::Inertia<Dim>{1.2, moments},
                        {in_plane<Dim>(1.0, 0.5), {}}, {in_plane<Dim>(-0.3, 2.0), spin});
-        add_spring(flight, body,
-                   [](const V<Dim>& x) { return V<Dim>(-(2.0 + 5.0 * x.squaredNorm()) * x); });
+        push(flight, body,
+             [](double, const V<Dim>& x) { return V<Dim>(-(2.0 + 5.0 * x.squaredNorm()) * x); });
         const int n = 1000;
         Series path;
         const double away = missed(flight, n, 0, &path);

@@ -14,8 +14,8 @@ void run(Trial<Dim>& trial) {
     }();
     auto world = trial.world({.h = 1e-2, .gravity = V<Dim>::Zero()});
     for (int k = 0; k < Dim; ++k) world.add_plane(V<Dim>::Zero(), V<Dim>::Unit(k));
-    const auto ball = world.add(talus::Ball<Dim>{r}, round_inertia<Dim>(1.0, r),
-                                {V<Dim>::Constant(r), {}});
+    const auto ball =
+        world.add(talus::Ball<Dim>{r}, round_inertia<Dim>(1.0, r), {V<Dim>::Constant(r), {}});
     // Plates that slide towards the ball, each pushed by its force.
     std::vector<talus::BodyIndex> plates;
     for (int k = 0; k < Dim; ++k) {
@@ -39,8 +39,8 @@ void run(Trial<Dim>& trial) {
     const talus::Matrix<Dim> stress = moments[static_cast<std::size_t>(ball)] / volume;
     for (int k = 0; k < Dim; ++k)
         for (int l = 0; l < Dim; ++l)
-            trial.rounding("stress " + std::to_string(k) + std::to_string(l) + " [Pa]", stress(k, l),
-                           k == l ? -push[k] / area : 0.0, largest(push) / area);
+            trial.rounding("stress " + std::to_string(k) + std::to_string(l) + " [Pa]",
+                           stress(k, l), k == l ? -push[k] / area : 0.0, largest(push) / area);
 }
 
 const Register g01(

@@ -107,8 +107,7 @@ template <int Dim>
 void run(Trial<Dim>& trial) {
     const Lattice<Dim> lattice;
     const auto sample = block<Dim>(lattice, Dim == 2 ? 20 : 7);
-    const auto forces =
-        measured_forces<Dim>(trial, sample.jacobian, sample.impulses, 1.0);
+    const auto forces = measured_forces<Dim>(trial, sample.jacobian, sample.impulses, 1.0);
     const auto moments = internal_moments<Dim>(sample.jacobian, forces, sample.balls);
 
     // Unions of Voronoi cells: single ones, and every third, and all inner ones.

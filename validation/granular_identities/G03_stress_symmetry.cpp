@@ -17,9 +17,9 @@ void run(Trial<Dim>& trial) {
         auto resting = box.make(trial, params);
         copy_places<Dim>(falling, resting);
         const auto report = resting.equilibrium(falling.impulse_cache());
-        const auto moments = internal_moments<Dim>(
-            report.data.problem.jacobian, measured_forces<Dim>(trial, report.data),
-            resting.bodies().count());
+        const auto moments = internal_moments<Dim>(report.data.problem.jacobian,
+                                                   measured_forces<Dim>(trial, report.data),
+                                                   resting.bodies().count());
         double all = 0.0, odd = 0.0;
         Worst torques;
         for (std::size_t i = BoxOfBalls<Dim>::walls; i < moments.size(); ++i) {
@@ -49,8 +49,10 @@ void run(Trial<Dim>& trial) {
         bound.x.push_back(-std::log10(tolerance));
         bound.y.push_back(std::log10(10 * left));
     }
-    trial.curves({"asymmetry over the solver's tolerance", "digits asked of the solver",
-                  "log10 of the asymmetry", {bound, seen}});
+    trial.curves({"asymmetry over the solver's tolerance",
+                  "digits asked of the solver",
+                  "log10 of the asymmetry",
+                  {bound, seen}});
 }
 
 const Register g03(
@@ -61,8 +63,7 @@ const Register g03(
      .setup = "A heap of 36 discs (spheres) with friction 0.5 that fell into its box and came to "
               "rest in thick air; then one step from rest, with the solver stopped at 1e-6, 1e-8 "
               "and 1e-10.",
-     .reference = {"M = Σ_c (x_c − x_G) ⊗ f_c",
-                   "M − M^T = torque = frac{I Δω}{h}: 0 at rest"},
+     .reference = {"M = Σ_c (x_c − x_G) ⊗ f_c", "M − M^T = torque = frac{I Δω}{h}: 0 at rest"},
      .compared = "The skew part of M of every grain with its torque; the root mean square of M − "
                  "M^T over that of M with ten times the speed left over g h.",
      .kind = Class::R,

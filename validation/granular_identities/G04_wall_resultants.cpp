@@ -42,7 +42,9 @@ void run(Trial<Dim>& trial) {
     // Forces at impact reach weight x (speed of fall / g h), a thousand weights, over 36 bodies.
     trial.rounding("rate of momentum = walls + weight + drag, worst step [N]", momentum,
                    1e3 * weight);
-    trial.curves({"force of floor and walls", "t [s]", "force / weight",
+    trial.curves({"force of floor and walls",
+                  "t [s]",
+                  "force / weight",
                   {vertical, {"at rest", {0.0, settling_time}, {1.0, 1.0}, true}}});
 
     const double tolerance = 1e-10;
@@ -71,7 +73,8 @@ const Register g04(
      .setup = "36 discs (spheres) with friction 0.5 fall into a box and come to rest in thick air.",
      .reference = {"in motion: Σ walls + weight + drag = frac{Δ momentum}{h}, in every step",
                    "at rest: Σ vertical = W, Σ horizontal = 0, Σ moments = moment of the weights"},
-     .compared = "The first in every step of the fall, to rounding; the second in a step from rest.",
+     .compared =
+         "The first in every step of the fall, to rounding; the second in a step from rest.",
      .kind = Class::S,
      .why = "The balance of momentum does not depend on the solver at all. At rest the bodies' "
             "remaining acceleration is what the solver left.",

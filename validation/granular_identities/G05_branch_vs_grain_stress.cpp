@@ -35,8 +35,8 @@ void run(Trial<Dim>& trial) {
     copy_places<Dim>(settling, world);
     // From the forces that hold it: a jam is one of the answers (C07), and not the cold one.
     const auto report = world.equilibrium(settling.impulse_cache());
-    trial.within("speed left / speed of the loads alone", report.speed / report.load_speed, 0.0, 1e-4,
-                 "at rest");
+    trial.within("speed left / speed of the loads alone", report.speed / report.load_speed, 0.0,
+                 1e-4, "at rest");
     const auto& data = report.data;
     const auto& j = data.problem.jacobian;
     const auto forces = measured_forces<Dim>(trial, data);

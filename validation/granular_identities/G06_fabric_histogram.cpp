@@ -39,7 +39,8 @@ talus::FabricHarmonic fitted(const TrialRecord& trial, const talus::DirectionHis
                              int order) {
     talus::FabricHarmonic harmonic = talus::fit_harmonic(histogram, order);
     const double half = order * pi / sectors;
-    if (trial.faulty(Fault::mean_over_sectors_forgotten)) harmonic.amplitude *= std::sin(half) / half;
+    if (trial.faulty(Fault::mean_over_sectors_forgotten))
+        harmonic.amplitude *= std::sin(half) / half;
     return harmonic;
 }
 
@@ -73,7 +74,8 @@ std::string rose(const talus::DirectionHistogram& histogram) {
         svg.polygon(wedge, {.fill = "#e9d8a6", .stroke = "#8a7f5c", .stroke_width = 0.008});
     }
     std::vector<V<2>> curve;
-    for (int k = 0; k <= 180; ++k) curve.push_back(at(density(2 * pi * k / 180) * 2 * pi * 0.8, 2 * pi * k / 180));
+    for (int k = 0; k <= 180; ++k)
+        curve.push_back(at(density(2 * pi * k / 180) * 2 * pi * 0.8, 2 * pi * k / 180));
     svg.polyline(curve, {.fill = "none", .stroke = "#1f5fa8", .stroke_width = 0.02});
     return svg.str();
 }
@@ -133,9 +135,10 @@ const Register g06(
      .gate = 2,
      .setup = "Eight samples of 100,000 directions drawn from a known density, counted over 24 "
               "sectors as in Moreau's drawings.",
-     .reference = {"frac{1}{2 π} (1 + a_2 cos 2(θ − θ_2) + a_4 cos 4(θ − θ_4))",
-                   "a_n = frac{2 ⟨cos n(θ − θ_n)⟩}{f_n}, f_n = frac{sin(n d / 2)}{n d / 2}, d = 15°",
-                   "standard error √{2/N} = 0.0045"},
+     .reference =
+         {"frac{1}{2 π} (1 + a_2 cos 2(θ − θ_2) + a_4 cos 4(θ − θ_4))",
+          "a_n = frac{2 ⟨cos n(θ − θ_n)⟩}{f_n}, f_n = frac{sin(n d / 2)}{n d / 2}, d = 15°",
+          "standard error √{2/N} = 0.0045"},
      .compared = "Coefficients from exact sector contents; against general linear least squares "
                  "for every sample; each sample and their mean against the truth.",
      .kind = Class::X,

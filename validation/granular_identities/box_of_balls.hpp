@@ -76,7 +76,7 @@ WorldParams<Dim> resting_params(double mu, double tolerance) {
     params.prepares = false;
     return params;
 }
-inline constexpr double drag_rate = 5.0;  // [1/s]
+inline constexpr double drag_rate = 5.0;      // [1/s]
 inline constexpr double settling_time = 8.0;  // [s]
 
 /// Puts the bodies of one world where those of another, made alike, have come to.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dense_problem.hpp"
 #include "faults.hpp"
 #include "setting.hpp"
 
@@ -96,9 +97,25 @@ class FaultySolver {
         faulty_.inverse_mass = problem.inverse_mass;
         faulty_.jacobian = problem.jacobian;
         faulty_.free_velocity = problem.free_velocity;
-        faulty_.laws.clear();
-        for (const Law<Dim>& law : problem.laws) faulty_.laws.push_back({law, fault_});
+        faulty_.laws = faulty(problem.laws);
         report_ = solver_.solve(faulty_, r);
+        return claimed();
+    }
+    const talus::SolveReport& solve(const DenseProblem<Dim>& problem, std::span<V<Dim>> r) {
+        DenseDelassus<Dim> w(problem.w);
+        faulty_.laws = faulty(problem.laws);
+        report_ = solver_.solve(w, std::span<const V<Dim>>(problem.free_velocity),
+                                std::span<const FaultyLaw<Dim>>(faulty_.laws), r);
+        return claimed();
+    }
+
+  private:
+    std::vector<FaultyLaw<Dim>> faulty(const std::vector<Law<Dim>>& laws) const {
+        std::vector<FaultyLaw<Dim>> result;
+        for (const Law<Dim>& law : laws) result.push_back({law, fault_});
+        return result;
+    }
+    const talus::SolveReport& claimed() {
         if (fault_ == Fault::residual_ignored) {
             report_.status = talus::SolveStatus::converged;
             report_.residual = 0.0;
@@ -106,7 +123,6 @@ class FaultySolver {
         return report_;
     }
 
-  private:
     Fault fault_ = Fault::none;
     talus::GaussSeidel<Dim, FaultyLaw<Dim>> solver_;
     talus::ContactProblem<Dim, FaultyLaw<Dim>> faulty_;

@@ -172,8 +172,8 @@ World<Dim> Trial<Dim>::world(const WorldParams<Dim>& params, talus::MaterialTabl
     typename World<Dim>::Listener listener;
     if (!params.prepares)
         listener.solved = [this, tolerance = params.solver.tolerance](double residual) {
-        solved(residual, tolerance);
-    };
+            solved(residual, tolerance);
+        };
     if (draws())
         listener.after_first_step = [this](const World<Dim>& w) {
             if (draws()) draw(w);

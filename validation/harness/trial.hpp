@@ -246,8 +246,10 @@ class Trial : public TrialRecord {
     }
     World<Dim> world(const WorldParams<Dim>& params, talus::MaterialTable<Law<Dim>> laws);
 
-    /// Solves a contact problem with the solver of the cases, from r, into r.
-    talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
+    /// Solves a contact problem (a Problem or a DenseProblem) with the solver of the cases, from r,
+    /// into r.
+    template <class AnyProblem>
+    talus::SolveReport solve(const AnyProblem& problem, std::vector<V<Dim>>& r,
                              const talus::GaussSeidelParams& params) {
         const auto report = validation::solve<Dim>(problem, r, params, fault());
         solved(report.residual, params.tolerance);

@@ -165,15 +165,27 @@ talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
 }
 
 template <int Dim>
+talus::SolveReport solve(const DenseProblem<Dim>& problem, std::vector<V<Dim>>& r,
+                         const talus::GaussSeidelParams& params, Fault fault) {
+    if (fault != Fault::none) return FaultySolver<Dim>(params, fault).solve(problem, std::span(r));
+    DenseDelassus<Dim> w(problem.w);
+    return talus::GaussSeidel<Dim, Law<Dim>>(params).solve(
+        w, std::span<const V<Dim>>(problem.free_velocity), std::span<const Law<Dim>>(problem.laws),
+        std::span<V<Dim>>(r));
+}
+
+template <int Dim>
 V<Dim> solve_contact(const Law<Dim>& law, const talus::LocalProblem<Dim>& problem, Fault fault) {
     if (fault == Fault::none) return law.solve(problem, V<Dim>::Zero());
     return FaultyLaw<Dim>{law, fault}.solve(problem, V<Dim>::Zero());
 }
 
-#define TALUS_VALIDATION_INSTANTIATE(Dim)                                             \
-    template class World<Dim>;                                                        \
-    template talus::SolveReport solve<Dim>(const Problem<Dim>&, std::vector<V<Dim>>&, \
-                                           const talus::GaussSeidelParams&, Fault);   \
+#define TALUS_VALIDATION_INSTANTIATE(Dim)                                                  \
+    template class World<Dim>;                                                             \
+    template talus::SolveReport solve<Dim>(const Problem<Dim>&, std::vector<V<Dim>>&,      \
+                                           const talus::GaussSeidelParams&, Fault);        \
+    template talus::SolveReport solve<Dim>(const DenseProblem<Dim>&, std::vector<V<Dim>>&, \
+                                           const talus::GaussSeidelParams&, Fault);        \
     template V<Dim> solve_contact<Dim>(const Law<Dim>&, const talus::LocalProblem<Dim>&, Fault);
 TALUS_VALIDATION_INSTANTIATE(2)
 TALUS_VALIDATION_INSTANTIATE(3)

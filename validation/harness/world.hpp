@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "dense_problem.hpp"
 #include "faults.hpp"
 #include "setting.hpp"
 #include "shapes.hpp"
@@ -109,6 +110,9 @@ class World {
 /// Solves a contact problem from `r`, into `r`, with the solver of all cases (or a faulty one).
 template <int Dim>
 talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
+                         const talus::GaussSeidelParams& params, Fault fault);
+template <int Dim>
+talus::SolveReport solve(const DenseProblem<Dim>& problem, std::vector<V<Dim>>& r,
                          const talus::GaussSeidelParams& params, Fault fault);
 
 /// Solves one contact: the law's own local solution (or that of a faulty law).

@@ -126,7 +126,7 @@ void run(Trial<Dim>& trial) {
             "velocity in L1 over the last period" + at, steps,
             [&](double h) {
                 return mean_over_shifts(
-                    [&](double shift) { return shake(trial, exact, h, shift * h).l1; });
+                    8, [&](double shift) { return shake(trial, exact, h, shift * h).l1; });
             },
             first_order);
     }

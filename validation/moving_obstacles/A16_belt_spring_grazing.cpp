@@ -68,7 +68,8 @@ void run(Trial<Dim>& trial) {
     trial.order(
         "place, worst, mean over shifted starts", halvings(4.3e-3, 6),
         [&](double h) {
-            return mean_over_shifts([&](double shift) { return ride(trial, h, shift * h).error; });
+            return mean_over_shifts(8,
+                                    [&](double shift) { return ride(trial, h, shift * h).error; });
         },
         second_order);
 }

@@ -34,7 +34,7 @@ void run(Trial<Dim>& trial) {
                 v.see(twist.linear, in_plane<Dim>(a * t, 0.0));
                 spin.see(twist.angular, rolling_spin<Dim>(turning * t));
                 way.see(w.bodies().position[1], in_plane<Dim>(a * t * t / 2, radius));
-                sliding.see(sliding_speed(w.data()), slip * t);
+                sliding.see(slip_speed(w.data()), slip * t);
                 path.x.push_back(t), path.y.push_back(twist.linear[0]);
             });
             // Velocities to 5 m/s, spins to 50 rad/s, from 1/h increments.

@@ -28,7 +28,7 @@ Swing swing(Trial<Dim>& trial, double mu, double h, double duration) {
     double before = release;
     world.run(duration, [&](const auto& w) {
         const auto& data = w.data();
-        seen.slip = std::max(seen.slip, sliding_speed(data));
+        seen.slip = std::max(seen.slip, slip_speed(data));
         const double after = bowl_angle(w), th = 0.5 * (before + after);
         before = after;
         down = down && th > 0.05;
@@ -58,7 +58,7 @@ void run(Trial<Dim>& trial) {
         below.step();
         // The normal force holds m g cos th0; friction lacks 2 % of the limit of stopping the foot,
         // whose effective mass is m / (1 + 1/kap).
-        trial.rounding("slip of the first step, 2 % below", sliding_speed(below.data()),
+        trial.rounding("slip of the first step, 2 % below", slip_speed(below.data()),
                        0.02 * limit * g * std::cos(release) * (1 + 1 / k) * h, 1.0, h);
         const Swing above = swing(trial, 1.02 * limit, h, whole_swing);
         trial.rounding("slip at any step of a swing, 2 % above", above.slip, 0.0, 10.0, h);

@@ -28,7 +28,7 @@ double crossing(Trial<Dim>& trial, double h, Series* path = nullptr, double* sli
         const double th = bowl_angle(w);
         if (before > 0 && th <= 0) crossed = w.time() - h * th / (th - before);
         before = th;
-        if (slip) *slip = std::max(*slip, sliding_speed(w.data()));
+        if (slip) *slip = std::max(*slip, slip_speed(w.data()));
         if (path) path->x.push_back(w.time()), path->y.push_back(th / degree);
         return path || crossed == 0.0;
     });

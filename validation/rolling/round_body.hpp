@@ -4,6 +4,7 @@
 #include <string>
 
 #include "harness/case.hpp"
+#include "harness/observed.hpp"
 
 /// Discs and spheres on the floor and in bowls.
 namespace validation {
@@ -20,14 +21,6 @@ talus::BodyIndex add_round(World<Dim>& world, double mass, double radius, const 
 template <int Dim>
 V<Dim> foot_velocity(const talus::Twist<Dim>& twist, double radius) {
     return twist.at(-radius * up<Dim>());
-}
-
-/// Speed at which contact c slides at the end of the step [m/s]; the largest double where there is
-/// no such contact.
-template <int Dim>
-double sliding_speed(const StepData<Dim>& data, std::size_t c = 0) {
-    if (c >= data.contact_count()) return std::numeric_limits<double>::max();
-    return end_velocity(data, c).template tail<Dim - 1>().norm();
 }
 
 /// What a skid that ends in rolling comes to.
@@ -92,7 +85,7 @@ SkidRun<Dim> skid(Trial<Dim>& trial, double mass, double radius, double mu, cons
             run.slip_direction.see(V<Dim>(slip.normalized()), V<Dim>(exact.slip.normalized()));
             run.sliding_way.see(V<Dim>(w.bodies().position[1] - start), exact.way(w.time()));
         }
-        if (run.roll_step_end == 0.0 && sliding_speed(w.data()) < 1e-12 * (1 + exact.slip.norm()))
+        if (run.roll_step_end == 0.0 && slip_speed(w.data()) < 1e-12 * (1 + exact.slip.norm()))
             run.roll_step_end = w.time();
         note(w.time(), twist.linear[0]);
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "harness/case.hpp"
+#include "sliding_block/block.hpp"
 
 namespace validation {
 namespace {
@@ -11,8 +11,7 @@ template <int Dim>
 World<Dim> launched(Trial<Dim>& trial, double h, const V<Dim>& direction) {
     auto world = trial.world({.h = h, .contact = law<Dim>(mu)});
     world.add_floor();
-    world.add(talus::Ball<Dim>(0.1), point_mass<Dim>(1.0), {0.1 * up<Dim>(), {}},
-              {speed * direction});
+    add_block<Dim>(world, 1.0, V<Dim>::Zero(), speed * direction);
     return world;
 }
 

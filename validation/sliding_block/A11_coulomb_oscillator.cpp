@@ -86,8 +86,8 @@ void run(Trial<Dim>& trial) {
     trial.order(
         "place of the stop, mean over shifted starts", halvings(1.1e-2, 6),
         [&](double h) {
-            return mean_over_shifts([&](double shift) {
-                return oscillate(trial, h, shift * h).turns.back() - turns.back();
+            return mean_over_shifts(8, [&](double shift) {
+                return std::abs(oscillate(trial, h, shift * h).turns.back() - turns.back());
             });
         },
         second_order);
