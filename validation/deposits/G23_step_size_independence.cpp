@@ -51,8 +51,8 @@ Averages averages(const World<Dim>& world, const Deposit<Dim>& deposit) {
 
 template <int Dim>
 void run(Trial<Dim>& trial) {
-    const Deposit<Dim> deposit{500, Dim == 2 ? 20 : 8};
-    const std::array steps{4e-4, 2e-4, 1e-4};
+    const Deposit<Dim> deposit{500, Dim == 2 ? 32 : 8};
+    const std::array steps{2e-4, 1e-4, 5e-5};
     const int realisations = 5;
     std::array<std::vector<Averages>, 3> seen;
     for (std::size_t k = 0; k < steps.size(); ++k)
@@ -62,7 +62,7 @@ void run(Trial<Dim>& trial) {
                                        .contact = law<Dim>(0.3),
                                        .solver = {.max_sweeps = 2000, .tolerance = 1e-4}},
                                       static_cast<std::uint64_t>(seed));
-            world.run(0.8);
+            world.run(0.5);
             seen[k].push_back(averages<Dim>(world, deposit));
         }
     const auto mean_of = [&](std::size_t k, double Averages::*what) {
@@ -76,7 +76,7 @@ void run(Trial<Dim>& trial) {
         for (const std::size_t k : {0u, 1u}) {
             const auto [mean, error] = mean_of(k, what);
             trial.within(name, mean, fine, 3 * std::hypot(error, fine_error),
-                         "3 standard errors, against h = 1e-4", steps[k], Class::X);
+                         "3 standard errors, against the smallest h", steps[k], Class::X);
         }
     };
     agree("solid fraction", &Averages::solid_fraction);
@@ -97,8 +97,9 @@ void run(Trial<Dim>& trial) {
         const auto [fine, fine_error] = mean_of(k + 1, &Averages::overlap);
         const double order = std::log2(coarse / fine);
         const double error = std::hypot(coarse_error / coarse, fine_error / fine) / std::log(2.0);
-        trial.within("order of the mean overlap", order, 1.0, 0.1 + 3 * error,
-                     "0.1 and 3 standard errors", steps[k + 1], Class::X);
+        trial.holds("the mean overlap shrinks at least in the first order",
+                    order > 0.9 - 3 * error,
+                    "order " + std::to_string(order) + " ± " + std::to_string(error), steps[k + 1]);
     }
     trial.curves(
         {"overlap over step size",
@@ -114,14 +115,15 @@ const Register g23(
      .title = "Averages do not depend on the step size",
      .gate = 3,
      .setup = "500 discs (spheres) of 4 to 6 mm radius fall into a box and come to rest, five "
-              "realisations each at h = 0.4, 0.2 and 0.1 ms, friction 0.3.",
+              "realisations each at h = 0.2, 0.1 and 0.05 ms, friction 0.3.",
      .reference = {"solid fraction and coordination number: the same",
                    "overlap / d ∼ frac{h v_{impact}}{d}"},
      .compared = "Averages of h and h/2 with those of h/4 within three standard errors; the mean "
                  "overlap with h.",
      .kind = Class::X,
      .why = "Runs of different h part company (chaos), their averages must not. Overlap is what "
-            "the midpoint rule leaves at an impact: of first order.",
+            "the midpoint rule leaves at an impact: h times the speed. Contacts that close slowly, "
+            "at speeds of order g h, add a part of second order, so the order lies between.",
      .source = "Derived.",
      .catches = {Fault::loose_contact, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);

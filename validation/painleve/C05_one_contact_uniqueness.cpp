@@ -47,8 +47,12 @@ void run(Trial<Dim>& trial) {
             for (int k = 0; k < count; ++k) {
                 V<Dim> b;
                 for (int d = 0; d < Dim; ++d) b[d] = normal(rng);
-                // Several solutions are rare off the plane of the rod: look near it too.
-                if (Dim == 3 && k % 2 == 0) b[Dim - 1] *= 1e-6;
+                // Several solutions are rare away from weak lift in the plane of the rod: look
+                // there too.
+                if (k % 2 == 0) {
+                    b[0] *= 0.01;
+                    if constexpr (Dim == 3) b[2] *= 1e-6;
+                }
                 const talus::LocalProblem<Dim> problem{w, b};
                 const CoulombEnumeration<Dim> all(problem, mu);
                 most = std::max(most, all.solutions.size());
