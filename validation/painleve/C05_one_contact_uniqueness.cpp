@@ -48,7 +48,7 @@ void run(Trial<Dim>& trial) {
                 V<Dim> b;
                 for (int d = 0; d < Dim; ++d) b[d] = normal(rng);
                 // Several solutions are rare off the plane of the rod: look near it too.
-                if (Dim == 3 && k % 2 == 0) b[Dim - 1] *= 1e-3;
+                if (Dim == 3 && k % 2 == 0) b[Dim - 1] *= 1e-6;
                 const talus::LocalProblem<Dim> problem{w, b};
                 const CoulombEnumeration<Dim> all(problem, mu);
                 most = std::max(most, all.solutions.size());

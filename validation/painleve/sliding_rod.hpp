@@ -45,7 +45,7 @@ World<Dim> sliding_rod(Trial<Dim>& trial, double theta, double mu, double slide,
 
 /// Angle with the floor.
 template <int Dim>
-double rod_angle(const World<Dim>& world) {
+double floor_angle(const World<Dim>& world) {
     const V<Dim> axis = world.bodies().rotation[1] * V<Dim>(V<Dim>::Unit(0));
     return std::atan2(axis[Dim - 1], axis[0]);
 }
