@@ -11,7 +11,7 @@ template <int Dim>
 std::array<double, 2> central_impact(Trial<Dim>& trial, double e, double m_a, double m_b,
                                      const V<Dim>& line, double& astray) {
     auto world = trial.world({.h = h, .contact = law<Dim>(0.0, e), .gravity = V<Dim>::Zero()});
-    const double r = ball_radius;
+    const double r = drop_radius;
     // Touch at the midpoint.
     world.add(talus::Ball<Dim>(r), round_inertia<Dim>(m_a, r), {-(r + h / 2) * line, {}}, {line});
     world.add(talus::Ball<Dim>(r), round_inertia<Dim>(m_b, r), {r * line, {}});
@@ -24,7 +24,7 @@ std::array<double, 2> central_impact(Trial<Dim>& trial, double e, double m_a, do
 
 template <int Dim>
 double rebound_speed(Trial<Dim>& trial, double e) {
-    return measured_rebound<Dim>(trial, {1.0, ball_radius, 0.0, -1.0, 0.0}, 0.0, e, 0.0).upward;
+    return measured_rebound<Dim>(trial, {1.0, drop_radius, 0.0, -1.0, 0.0}, 0.0, e, 0.0).upward;
 }
 
 template <int Dim>

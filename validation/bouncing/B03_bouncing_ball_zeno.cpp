@@ -92,6 +92,10 @@ void bounce(Trial<Dim>& trial, double e) {
         if (g * h * std::pow(e, 0.2 * exact.t_inf() / h) < 1e-13)
             trial.within("speed at 1.2 t_∞" + name, seen.last_speed, 0.0, 1e-12,
                          "tolerance of the catalogue", h);
+        else
+            trial.note("h = " + std::to_string(h) + name + ": too few steps to come to rest in; " +
+                       "speed at 1.2 t_∞ is " + std::to_string(seen.last_speed * 1e12) +
+                       "e-12 m/s");
         if (h != steps.front()) continue;
         Series truth{"exact", {}, {}, true};
         for (int k = 0; k <= 239; ++k) {

@@ -9,12 +9,12 @@
 /// Impacts of single bodies: balls that fall and bounce, and single steps in which something hits.
 namespace validation {
 
-inline constexpr double ball_radius = 0.1;
+inline constexpr double drop_radius = 0.1;
 
 /// Height of the lowest point of the ball above the floor [m].
 template <int Dim>
 double ball_height(const World<Dim>& world) {
-    return world.bodies().position[1][Dim - 1] - ball_radius;
+    return world.bodies().position[1][Dim - 1] - drop_radius;
 }
 template <int Dim>
 double ball_speed_up(const World<Dim>& world) {
@@ -37,8 +37,8 @@ World<Dim> falling_ball(Trial<Dim>& trial, double h, double e, const Fall& fall,
                         double late = 0.0) {
     auto world = trial.world({.h = h, .contact = law<Dim>(0.0, e)});
     world.add_floor();
-    world.add(talus::Ball<Dim>(ball_radius), round_inertia<Dim>(1.0, ball_radius),
-              {(ball_radius + fall.height_at(late)) * up<Dim>(), {}}, {-g * late * up<Dim>()});
+    world.add(talus::Ball<Dim>(drop_radius), round_inertia<Dim>(1.0, drop_radius),
+              {(drop_radius + fall.height_at(late)) * up<Dim>(), {}}, {-g * late * up<Dim>()});
     return world;
 }
 
