@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Shared by tests/run, examples/run, bench/run and .ci/run, which source it.
+# Shared by tests/run, examples/run, bench/run, validation/run and .ci/run, which source it.
 # It sets `root` (the repository), `jobs` (parallel compilations) and defines say, die, ensure_packages.
 
 # A prefix set by the caller would redirect the output of the `cd` below.

@@ -43,16 +43,15 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_squeezed_ball_is_compressed_along_the_push, D, d
     const auto by_branches =
         talus::branch_moment<Dim>(j, forces, [](std::size_t i) { return i == 1; });
     BOOST_CHECK_SMALL((by_branches - expected).norm(), 1e-12);
-    BOOST_CHECK_EQUAL(talus::branch_moment<Dim>(j, forces, [](std::size_t) { return false; }).norm(),
-                      0.0);
+    BOOST_CHECK_EQUAL(
+        talus::branch_moment<Dim>(j, forces, [](std::size_t) { return false; }).norm(), 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(forces_need_a_step_size) {
     std::vector<talus::Vector<2>> forces;
-    BOOST_CHECK_THROW(
-        talus::contact_forces<2>(talus::ContactJacobian<2>{}, std::vector<talus::Vector<2>>{}, 0.0,
-                                 forces),
-        talus::input_error);
+    BOOST_CHECK_THROW(talus::contact_forces<2>(talus::ContactJacobian<2>{},
+                                               std::vector<talus::Vector<2>>{}, 0.0, forces),
+                      talus::input_error);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -97,8 +97,7 @@ void run(Trial<Dim>& trial) {
         const auto [fine, fine_error] = mean_of(k + 1, &Averages::overlap);
         const double order = std::log2(coarse / fine);
         const double error = std::hypot(coarse_error / coarse, fine_error / fine) / std::log(2.0);
-        trial.holds("the mean overlap shrinks at least in the first order",
-                    order > 0.9 - 3 * error,
+        trial.holds("the mean overlap shrinks at least in the first order", order > 0.9 - 3 * error,
                     "order " + std::to_string(order) + " ± " + std::to_string(error), steps[k + 1]);
     }
     trial.curves(

@@ -112,7 +112,8 @@ void run(Trial<Dim>& trial) {
          0.15},
         {"oblique impact, sticking", law<Dim>(0.9, 0.8, 0.5), ball<Dim>(0.3), skew, W<Dim>::Zero(),
          1e-2, 0.15},
-        {"box on a corner", law<Dim>(0.4, 0.5), tilted_box<Dim>(), skew, W<Dim>::Zero(), 3e-3, 0.12},
+        {"box on a corner", law<Dim>(0.4, 0.5), tilted_box<Dim>(), skew, W<Dim>::Zero(), 3e-3,
+         0.12},
         {"rod, impact without collision", law<Dim>(2.0), leaning_rod<Dim>(),
          in_plane<Dim>(-1.0, 0.0), W<Dim>::Zero(), 1e-3, 0.02}};
     auto random = trial.rng();

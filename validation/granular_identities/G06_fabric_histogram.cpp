@@ -132,7 +132,7 @@ const Register g06(
     {.id = "G06",
      .name = "fabric-histogram",
      .title = "Fourier fit of contact directions",
-     .gate = 2,
+     .gate = 1,
      .setup = "Eight samples of 100,000 directions drawn from a known density, counted over 24 "
               "sectors as in Moreau's drawings.",
      .reference =

@@ -104,7 +104,7 @@ const Register d10(
     {.id = "D10",
      .name = "hyperstatic-column",
      .title = "A column of ten blocks",
-     .gate = 2,
+     .gate = 1,
      .setup = "Ten blocks of weight W (0.6 m by 0.2 m by 0.4 m) stacked flat with friction 0.5; "
               "and a block without weight pressed between a wall and a plate.",
      .reference = {"interface below k blocks: force k W upwards, moment 0",

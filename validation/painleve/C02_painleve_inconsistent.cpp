@@ -64,7 +64,7 @@ const Register c02(
      .kind = Class::T,
      .why = "The catalogue allows 100 h; the enumeration at the same h is met to rounding.",
      .source = "Lecornu 1905; Moreau 1988; Stewart 1998, 2000.",
-     .catches = {Fault::short_arm, Fault::stale_inertia, Fault::pulling_contact}},
+     .catches = {Fault::short_arm, Fault::tilted_normal}},
     run<2>, run<3>, __FILE__);
 
 }  // namespace
