@@ -72,7 +72,7 @@ const Register g03(
             "(10 to 100 here), so the catalogue's bound of ten residuals does not hold in general; "
             "ten times the speed left does, since a torque is a moment of inertia times that.",
      .source = "Balance of moments.",
-     .catches = {Fault::forces_in_local_axes, Fault::residual_ignored}},
+     .catches = {Fault::forces_in_local_axes}},
     run<2>, run<3>, __FILE__);
 
 }  // namespace

@@ -79,7 +79,7 @@ const Register g05(
      .kind = Class::S,
      .why = "The sums differ by residual force times distance, summed over the grains.",
      .source = "Derived; Weber 1966.",
-     .catches = {Fault::forces_in_local_axes, Fault::residual_ignored}},
+     .catches = {Fault::forces_in_local_axes}},
     run<2>, run<3>, __FILE__);
 
 }  // namespace

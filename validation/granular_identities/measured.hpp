@@ -14,11 +14,11 @@ namespace validation {
 template <int Dim>
 std::vector<V<Dim>> measured_forces(const TrialRecord& trial,
                                     const talus::ContactJacobian<Dim>& jacobian,
-                                    std::span<const V<Dim>> impulses, double step_size) {
+                                    std::span<const V<Dim>> impulses, double duration) {
     std::vector<V<Dim>> forces;
-    talus::contact_forces<Dim>(jacobian, impulses, step_size, forces);
+    talus::contact_forces<Dim>(jacobian, impulses, duration, forces);
     if (trial.faulty(Fault::forces_in_local_axes))
-        for (std::size_t c = 0; c < forces.size(); ++c) forces[c] = impulses[c] / step_size;
+        for (std::size_t c = 0; c < forces.size(); ++c) forces[c] = impulses[c] / duration;
     return forces;
 }
 template <int Dim>

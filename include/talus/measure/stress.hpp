@@ -11,14 +11,14 @@
 namespace talus {
 
 /// Mean forces over the step, world axes, on body a of each contact (body b receives the opposite)
-/// [N]: impulses r [N s], local axes, over the step size [s].
+/// [N]: impulses r [N s], local axes, over the duration of the step [s].
 template <int Dim>
 void contact_forces(const ContactJacobian<Dim>& jacobian, std::span<const Vector<Dim>> r,
-                    double step_size, std::vector<Vector<Dim>>& forces) {
-    require_positive("step size", step_size);
+                    double duration, std::vector<Vector<Dim>>& forces) {
+    require_positive("duration of the step", duration);
     forces.resize(r.size());
     for (std::size_t c = 0; c < r.size(); ++c)
-        forces[c] = jacobian.frame[c].transpose() * r[c] / step_size;
+        forces[c] = jacobian.frame[c].transpose() * r[c] / duration;
 }
 
 /// Internal moment of every body about its centre, M = sum_c (x_c - x_G) f_c^T over its contacts
