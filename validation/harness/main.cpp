@@ -134,7 +134,7 @@ void print_matrix(const std::vector<Cell>& cells, const MatrixVerdict& verdict) 
                     std::string(fault_texts[k].title).c_str());
     }
     std::printf(
-        "\nX caught as claimed   x caught   . not noticed   ! claimed, not noticed here   "
+        "\nX caught as claimed   x caught   . not noticed   ! claimed, not noticed   "
         "blank: not run\n        ");
     for (std::size_t k = 0; k < fault_texts.size(); ++k)
         std::printf(" %c", static_cast<char>('a' + k));

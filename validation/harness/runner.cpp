@@ -135,6 +135,12 @@ std::vector<Cell> run_mutants(const std::vector<Job>& jobs, const std::vector<Re
         cells[k] = std::move(cell);
         done(++finished, cells.size());
     });
+    std::set<std::pair<const Case*, Fault>> kept;
+    for (const Cell& cell : cells)
+        if (cell.claimed && cell.caught) kept.insert({cell.of, cell.fault});
+    for (Cell& cell : cells)
+        if (cell.claimed && !cell.caught && kept.contains({cell.of, cell.fault}))
+            cell.claimed = false;
     return cells;
 }
 
@@ -142,7 +148,6 @@ MatrixVerdict judge(const std::vector<Cell>& cells) {
     MatrixVerdict verdict;
     std::set<Fault> caught;
     std::set<const Case*> all, busy;
-    std::set<std::pair<const Case*, Fault>> kept;
     for (const Cell& cell : cells) {
         all.insert(cell.of);
         if (!cell.caught) continue;
@@ -152,16 +157,13 @@ MatrixVerdict judge(const std::vector<Cell>& cells) {
         }
         caught.insert(cell.fault);
         busy.insert(cell.of);
-        kept.insert({cell.of, cell.fault});
     }
     for (const FaultText& text : fault_texts)
         if (!caught.contains(text.fault)) verdict.survivors.push_back(text.fault);
     for (const Case* c : all)
         if (!busy.contains(c)) verdict.idle.push_back(c);
-    // A claim is kept if the case notices in one of its dimensions: some faults exist in one only.
     for (const Cell& cell : cells)
-        if (cell.claimed && !kept.contains({cell.of, cell.fault}))
-            verdict.broken_claims.push_back(&cell);
+        if (cell.claimed && !cell.caught) verdict.broken_claims.push_back(&cell);
     return verdict;
 }
 

@@ -33,7 +33,9 @@ struct Cell {
     const Case* of = nullptr;
     int dim = 2;
     Fault fault = Fault::none;
-    bool claimed = false;  ///< the case says that it catches this fault
+    /// The case says that it catches this fault, and does so in this dimension or in none: some
+    /// faults show in one dimension only.
+    bool claimed = false;
     bool caught = false;
     std::string by;  ///< the check that failed
     double seconds = 0.0;
