@@ -73,6 +73,7 @@ const Register e04(
     {.id = "E04",
      .name = "symmetric-top-discrete",
      .title = "A symmetric top, step by step",
+     .gate = 1,
      .setup = "A body of moments 1, 1 and 2 kg m^2 turns without torque, from (0.3, 0, 1.5) rad/s, "
               "for 500 steps of 0.01 s; with both updates of the gyroscopic term.",
      .reference = {"Ω = frac{(I_3 − I_1) ω_3}{I_1} = 1.5 rad/s",
