@@ -35,9 +35,6 @@ void run(Trial<2>& trial) {
     expect_threshold<2>(trial, "20 voussoirs, t / R = 0.3, mu within 1 %", 1.01 * critical,
                         0.99 * critical,
                         [&](double h, double mu) { return arch(trial, 20, 0.3, mu, h); });
-    if (trial.full())
-        expect_threshold<2>(trial, "100 voussoirs, t / R = 0.15, mu", 0.3600, 0.3430,
-                            [&](double h, double mu) { return arch(trial, 100, 0.15, mu, h); });
 }
 
 const Register d13(
@@ -50,7 +47,7 @@ const Register d13(
      .reference = {"forces exist with |T| ≤ μ N and N ≥ 0 at every joint (linear program)"},
      .compared = "The catalogue's thresholds by the linear program; the one-step verdict for n = "
                  "20, t / R = 0.3 at μ = 0.320 and 0.298, and 1 % on either side of the threshold "
-                 "0.3089. With the longer ranges also n = 100.",
+                 "0.3089.",
      .kind = Class::T,
      .why = "Friction is not associated: the one-step test asks for the existence of forces, "
             "which is what the linear program asks.",
