@@ -287,8 +287,15 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
     CLI::App app("Tries talus against closed forms.");
     Options options;
-    for (int k = 0; k < argc; ++k)
-        options.command += (k ? " " : "") + std::string(k ? argv[k] : "validation/run");
+    options.command = "validation/run";
+    for (int k = 1; k < argc; ++k) {
+        const std::string word = argv[k];
+        // What validation/run adds by itself.
+        if (word == "--output" || word == "--commit" || word == "--jobs")
+            ++k;
+        else
+            options.command += " " + word;
+    }
     app.add_option("--gate", options.gate, "cases up to this gate: 1 seconds, 2 minutes, 3 hours")
         ->check(CLI::Range(1, 3))
         ->capture_default_str();
