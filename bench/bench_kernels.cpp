@@ -76,7 +76,7 @@ void sweeps(benchmark::State& state, bool scalar_inertia) {
         std::fill(r.begin(), r.end(), Vec::Zero());
         const auto& report = solver.solve(pile.problem, r);
         residual = report.residual;
-        sweeps += report.sweeps;
+        sweeps += report.iterations;
     }
     const double contacts = static_cast<double>(r.size());
     state.counters["updates/s"] =

@@ -79,8 +79,8 @@ void step(benchmark::State& state) {
         if (!warm) pile.sim->impulse_cache().clear();
         const auto& data = pile.sim->step();
         contacts += static_cast<double>(data.contact_count());
-        sweeps += data.report.sweeps;
-        updates += static_cast<double>(data.contact_count()) * data.report.sweeps;
+        sweeps += data.report.iterations;
+        updates += static_cast<double>(data.contact_count()) * data.report.iterations;
         residual = std::max(residual, data.report.residual);
     }
     using benchmark::Counter;

@@ -20,8 +20,8 @@ struct Jacobi {
         talus::DelassusProduct<Dim> w(problem.jacobian, problem.inverse_mass);
         std::vector<talus::Vector<Dim>> next(r.size());
         report = {};
-        for (; report.sweeps < 20000; ++report.sweeps) {
-            if (report.sweeps % 10 == 0) {
+        for (; report.iterations < 20000; ++report.iterations) {
+            if (report.iterations % 10 == 0) {
                 report.residual = talus::residual<Dim>(problem, r).relative;
                 if (report.residual <= tolerance) {
                     report.status = talus::SolveStatus::converged;
@@ -58,7 +58,7 @@ void heap(const char* name) {
     long sweeps = 0;
     sim.run(0.4, [&](const auto& s) {
         worst = std::max(worst, s.data().report.residual);
-        sweeps += s.data().report.sweeps;
+        sweeps += s.data().report.iterations;
     });
     std::printf("%dD %-12s %7ld sweeps, worst residual %.0e\n", Dim, name, sweeps, worst);
 }

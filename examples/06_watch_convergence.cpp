@@ -27,7 +27,7 @@ void stack() {
     const auto& report = solver.solve(w, u_free, laws, r, [](int sweep, double residual) {
         if (sweep % 10 == 0) std::printf("  sweep %2d: residual %.1e\n", sweep, residual);
     });
-    std::printf("%dD: %d sweeps, r0 = (%.9f, %.9f), r1 = (%.9f, %.9f)\n", Dim, report.sweeps,
+    std::printf("%dD: %d sweeps, r0 = (%.9f, %.9f), r1 = (%.9f, %.9f)\n", Dim, report.iterations,
                 r[0][0], r[0][1], r[1][0], r[1][1]);
 }
 

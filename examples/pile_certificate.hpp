@@ -57,15 +57,15 @@ class Certificate {
             talus::impulse_from<Dim>(data.problem.jacobian, data.impulse,
                                      [&](std::size_t i) { return bodies.is_obstacle(i); });
         const double weight = mass_ * gravity_ * data.h;
-        steps_.push_back({sim.time(), data.contact_count(), data.report.sweeps,
+        steps_.push_back({sim.time(), data.contact_count(), data.report.iterations,
                           data.report.residual, ledger_.kinetic(), ledger_.potential(), overlap.max,
                           overlap.mean, weight > 0.0 ? support[Dim - 1] / weight : 0.0});
         if (data.report.status != talus::SolveStatus::converged) ++missed_;
         worst_residual_ = std::max(worst_residual_, data.report.residual);
         deepest_ = std::max(deepest_, overlap.max);
-        sweeps_ += data.report.sweeps;
+        sweeps_ += data.report.iterations;
         updates_ +=
-            static_cast<double>(data.report.sweeps) * static_cast<double>(data.contact_count());
+            static_cast<double>(data.report.iterations) * static_cast<double>(data.contact_count());
     }
 
     const StepFigures& last() const { return steps_.back(); }

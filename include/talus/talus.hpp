@@ -12,5 +12,6 @@
 #include <talus/measure/momentum.hpp>
 #include <talus/measure/penetration.hpp>
 #include <talus/problem/delassus_sparse.hpp>
+#include <talus/problem/matrix_problem.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>

@@ -121,9 +121,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(warm_start_saves_sweeps, D, dimensions) {
     p.free_velocity[0][0] = -1.0;
     talus::GaussSeidel<dim, talus::Coulomb<dim>> solver({10000, 1e-6});
     std::vector<Vec> r(10, Vec::Zero());
-    const int cold = solver.solve(p, r).sweeps;
+    const int cold = solver.solve(p, r).iterations;
     p.free_velocity[0][0] = -1.0001;
-    const int warm = solver.solve(p, r).sweeps;
+    const int warm = solver.solve(p, r).iterations;
     BOOST_TEST(warm > 0);
     BOOST_TEST(warm < cold / 2);
 }
@@ -142,14 +142,14 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(observer_sees_every_sweep_changes_nothing_and_may_
         seen.push_back(residual);
         BOOST_TEST(static_cast<std::size_t>(sweep) == seen.size());
     });
-    BOOST_TEST(static_cast<int>(seen.size()) == report.sweeps);
+    BOOST_TEST(static_cast<int>(seen.size()) == report.iterations);
     BOOST_TEST(distance<dim>(silent, watched) == 0.0);
     BOOST_TEST(seen.back() <= 1e-11);
     BOOST_TEST(seen.front() > seen.back());
 
     const auto early = solver.solve(p, stopped, [](int sweep, double) { return sweep < 3; });
     BOOST_TEST((early.status == talus::SolveStatus::stopped));
-    BOOST_TEST(early.sweeps == 3);
+    BOOST_TEST(early.iterations == 3);
     BOOST_TEST(early.residual == talus::residual(p, std::span<const Vec>(stopped)).relative,
                boost::test_tools::tolerance(1e-9));
 }

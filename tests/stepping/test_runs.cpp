@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(grains_of_a_micrometre_move_as_grains_of_a_metre_t
     for (int k = 0; k < 300; ++k) {
         metre.step();
         micrometre.step();
-        BOOST_REQUIRE_EQUAL(metre.data().report.sweeps, micrometre.data().report.sweeps);
+        BOOST_REQUIRE_EQUAL(metre.data().report.iterations, micrometre.data().report.iterations);
         BOOST_REQUIRE_EQUAL(metre.data().report.residual, micrometre.data().report.residual);
     }
     BOOST_CHECK_GT(metre.data().contact_count(), 20u);

@@ -82,8 +82,8 @@ void run(Trial<Dim>& trial) {
 
     talus::ImpulseCache<Dim> found;
     found.store(report.data.contacts, report.data.problem.jacobian, report.data.impulse);
-    const int warm = column<Dim>(trial, 1e-2).equilibrium(found).data.report.sweeps;
-    trial.note("Cold start: " + std::to_string(report.data.report.sweeps) + " sweeps.");
+    const int warm = column<Dim>(trial, 1e-2).equilibrium(found).data.report.iterations;
+    trial.note("Cold start: " + std::to_string(report.data.report.iterations) + " sweeps.");
     trial.within("sweeps from the impulses found", warm, 0.0, 1.0,
                  "they are the answer; rounding may cost one sweep");
 

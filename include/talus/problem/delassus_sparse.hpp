@@ -47,6 +47,13 @@ class DelassusSparse {
 
     std::size_t contact_count() const { return diagonal_.size(); }
     std::size_t block_count() const { return value_.size(); }
+    /// Columns of the blocks of row i, ascending, and the blocks.
+    std::span<const std::size_t> columns(std::size_t i) const {
+        return std::span(column_).subspan(row_begin_[i], row_begin_[i + 1] - row_begin_[i]);
+    }
+    std::span<const Matrix<Dim>> blocks(std::size_t i) const {
+        return std::span(value_).subspan(row_begin_[i], row_begin_[i + 1] - row_begin_[i]);
+    }
     Matrix<Dim> diagonal_block(std::size_t i) const { return value_[diagonal_[i]]; }
 
     /// u = W r.

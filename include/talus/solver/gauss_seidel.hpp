@@ -189,8 +189,8 @@ class GaussSeidel {
     bool verify(const Task<W>& task, int sweeps) {
         task.w.start(task.r);
         const Residual residual = evaluate(task);
-        report_.sweeps = sweeps;
-        report_.status = SolveStatus::sweep_limit;
+        report_.iterations = sweeps;
+        report_.status = SolveStatus::iteration_limit;
         if (!residual.finite()) {
             std::copy(last_finite_.begin(), last_finite_.end(), task.r.begin());
             report_.status = SolveStatus::not_finite;
@@ -202,7 +202,7 @@ class GaussSeidel {
         report_.residual = residual.relative;
         if (report_.history.size() == history_limit) report_.history.pop_back();
         report_.history.push_back({sweeps, residual.relative});
-        return report_.status != SolveStatus::sweep_limit;
+        return report_.status != SolveStatus::iteration_limit;
     }
 
     DelassusProduct<Dim> product_;

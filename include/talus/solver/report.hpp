@@ -1,31 +1,62 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 namespace talus {
 
 /// How a solve ended.
 enum class SolveStatus {
-    converged,    ///< the residual of the returned impulses is at or below the tolerance
-    sweep_limit,  ///< it is not: allow more sweeps, accept a larger tolerance or change the solver
-    stopped,      ///< an observer asked to stop before either
+    converged,        ///< the residual of the returned impulses is at or below the tolerance
+    iteration_limit,  ///< it is not: allow more iterations, accept a larger tolerance or change the
+                      ///< solver
+    stalled,          ///< it is not, and more iterations of this solver would not help
+    no_solution,      ///< a certificate was found that no impulses obey all laws: change the data
+    stopped,          ///< an observer asked to stop
     not_finite,  ///< input or arithmetic produced NaN or infinity: the impulses are the last finite
 };
 
 /// A point of a solve's history.
 struct ResidualSample {
-    int sweep;
+    int iteration;
     double residual;
+};
+
+/// The part of one engine in a solve that is made of several.
+struct SolveStage {
+    std::string_view engine;  ///< its name, a literal
+    int iterations;           ///< its own
+    double residual;          ///< when it ended [-]
 };
 
 /// What a solver says of its answer. `residual` is always that of `problem/residual.hpp`, evaluated
 /// at the impulses returned.
 struct SolveReport {
-    SolveStatus status = SolveStatus::sweep_limit;
-    int sweeps = 0;
+    SolveStatus status = SolveStatus::iteration_limit;
+    int iterations = 0;                   ///< sweeps, factorisations...: what the solver counts
     double residual = 0.0;                ///< relative natural-map residual of the exact law [-]
     std::vector<ResidualSample> history;  ///< residuals evaluated on the way, in order
+    std::vector<SolveStage> stages;       ///< who did what, where several engines took part
 };
+
+/// The word for a status, as its enumerator is written.
+constexpr std::string_view to_string(SolveStatus status) {
+    switch (status) {
+        case SolveStatus::converged:
+            return "converged";
+        case SolveStatus::iteration_limit:
+            return "iteration_limit";
+        case SolveStatus::stalled:
+            return "stalled";
+        case SolveStatus::no_solution:
+            return "no_solution";
+        case SolveStatus::stopped:
+            return "stopped";
+        case SolveStatus::not_finite:
+            return "not_finite";
+    }
+    return "unknown";
+}
 
 }  // namespace talus
