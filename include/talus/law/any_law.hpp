@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/law/cone_of.hpp>
 #include <talus/law/prepared.hpp>
 
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -41,6 +43,9 @@ requires(sizeof...(Laws) > 0) struct AnyLaw {
                     return Vector<Dim>::Zero();
             },
             law);
+    }
+    std::optional<FrictionCone<Dim>> friction_cone() const {
+        return std::visit([](const auto& l) { return cone_of<Dim>(l); }, law);
     }
     /// Throws input_error naming `item` unless the chosen law is valid.
     void require_valid(std::string_view item) const {

@@ -33,6 +33,7 @@ struct Coulomb {
     Vector<Dim> natural_map(const Vector<Dim>& u, const Vector<Dim>& r, double rho) const {
         return FrictionCone<Dim>{mu}.project(r - rho * de_saxce_corrected<Dim>(u, mu));
     }
+    FrictionCone<Dim> friction_cone() const { return {mu}; }
     /// Throws input_error naming `item` unless mu is finite and not negative.
     void require_valid(std::string_view item) const {
         require_non_negative(std::string(item) + ".mu", mu);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/law/concepts.hpp>
+#include <talus/law/friction_cone.hpp>
 
 #include <algorithm>
 
@@ -36,6 +37,7 @@ struct Signorini {
         result[0] = std::max(0.0, r[0] - rho * u[0]);
         return result;
     }
+    FrictionCone<Dim> friction_cone() const { return {0.0}; }
 };
 static_assert(PreparableLaw<Signorini<2>, 2> && PreparableLaw<Signorini<3>, 3>);
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/law/cone_of.hpp>
 #include <talus/law/prepared.hpp>
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -41,6 +43,8 @@ struct WeightedMean {
     Vector<Dim> natural_map(const Vector<Dim>& u, const Vector<Dim>& r, double rho) const {
         return law.natural_map(u, r, rho);
     }
+    /// That of `law`: the restitution shift is in the free velocity.
+    std::optional<FrictionCone<Dim>> friction_cone() const { return cone_of<Dim>(law); }
     /// Throws input_error naming `item` unless both restitutions lie in [0, 1] and `law` is valid.
     void require_valid(std::string_view item) const {
         const std::string name(item);

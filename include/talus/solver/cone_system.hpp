@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/law/friction_cone.hpp>
+#include <talus/problem/body_map.hpp>
+#include <talus/problem/residual.hpp>
+#include <talus/solver/block_lu.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace talus {
+
+/// A contact problem as the solvers see it that treat all contacts at once:  u = W r + q  with a
+/// friction cone at each contact, in scaled units: impulses are divided and velocities multiplied
+/// by sqrt(rho_c), rho_c the effective mass of ResidualMeasure. Both become square roots of
+/// energies, each W_cc has the trace Dim, cones stay what they are, and the residual is the plain
+/// distance to the natural map of step 1.
+///
+/// It can also solve (W + D) x = b for any block-diagonal D with a positive definite symmetric
+/// part: in contact space from the blocks of W, or, where W = B^T B is known, in body space,
+///   x = D^-1 (b - B^T y),  (1 + B D^-1 B^T) y = B D^-1 b,
+/// where the matrix has a block per body, however many contacts it has.
+template <int Dim>
+class ConeSystem {
+  public:
+    using Vec = Eigen::VectorXd;
+
+    /// Takes a problem in. `measure` must have been prepared with the same W.
+    void assign(const DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity,
+                std::vector<FrictionCone<Dim>> cones, const ResidualMeasure<Dim>& measure);
+    void assign(BodyMap<Dim> bodies, std::span<const Vector<Dim>> free_velocity,
+                std::vector<FrictionCone<Dim>> cones, const ResidualMeasure<Dim>& measure);
+
+    std::size_t contact_count() const { return cones_.size(); }
+    const FrictionCone<Dim>& cone(std::size_t c) const { return cones_[c]; }
+    const Vec& free_velocity() const { return q_; }  ///< q, scaled [sqrt(J)]
+    static Eigen::Index first(std::size_t c) { return static_cast<Eigen::Index>(Dim * c); }
+
+    /// u = W r.
+    void multiply(const Vec& r, Vec& u) const;
+
+    void to_scaled(std::span<const Vector<Dim>> r, Vec& scaled) const {
+        scaled.resize(q_.size());
+        for (std::size_t c = 0; c < r.size(); ++c)
+            scaled.template segment<Dim>(first(c)) = r[c] / scale_[c];
+    }
+    void to_impulses(const Vec& scaled, std::span<Vector<Dim>> r) const {
+        for (std::size_t c = 0; c < r.size(); ++c)
+            r[c] = scaled.template segment<Dim>(first(c)) * scale_[c];
+    }
+
+    /// The residual of ResidualMeasure at r, with u = W r + q.
+    double residual(const Vec& r, const Vec& u) const;
+
+    /// Factorises W + D. False if that fails.
+    bool factorize(std::span<const Matrix<Dim>> d);
+    /// x with (W + D) x = b, refined until the error is rounding (at most `refinements` times).
+    void solve(const Vec& b, Vec& x, int refinements = 2);
+
+  private:
+    using Small = Matrix<Dim>;
+    void set_common(std::span<const Vector<Dim>> free_velocity,
+                    std::vector<FrictionCone<Dim>> cones, const ResidualMeasure<Dim>& measure);
+    void solve_once(const Vec& b, Vec& x);
+    void apply_inverse(const Vec& b, Vec& x) const;
+
+    std::vector<FrictionCone<Dim>> cones_;
+    std::vector<double> scale_;  ///< sqrt(rho_c)
+    Vec q_;
+    bool in_body_space_ = false;
+    bool analyzed_ = false;
+    // Contact space: blocks of W by rows.
+    std::vector<std::size_t> row_begin_, column_;
+    std::vector<Small> block_;
+    // Body space.
+    BodyMap<Dim> bodies_;
+    mutable Vec v_;
+
+    BlockLu lu_;
+    std::vector<int> slots_;
+    std::vector<Small> d_, d_inverse_;
+    Vec left_, correction_, body_right_;
+};
+
+template <int Dim>
+void ConeSystem<Dim>::set_common(std::span<const Vector<Dim>> free_velocity,
+                                 std::vector<FrictionCone<Dim>> cones,
+                                 const ResidualMeasure<Dim>& measure) {
+    cones_ = std::move(cones);
+    scale_.resize(cones_.size());
+    q_.resize(static_cast<Eigen::Index>(Dim * cones_.size()));
+    for (std::size_t c = 0; c < cones_.size(); ++c) {
+        scale_[c] = std::sqrt(measure.effective_mass(c));
+        q_.template segment<Dim>(first(c)) = scale_[c] * free_velocity[c];
+    }
+    analyzed_ = false;
+}
+
+template <int Dim>
+void ConeSystem<Dim>::assign(const DelassusSparse<Dim>& w,
+                             std::span<const Vector<Dim>> free_velocity,
+                             std::vector<FrictionCone<Dim>> cones,
+                             const ResidualMeasure<Dim>& measure) {
+    set_common(free_velocity, std::move(cones), measure);
+    in_body_space_ = false;
+    row_begin_.assign(1, 0);
+    column_.clear();
+    block_.clear();
+    for (std::size_t i = 0; i < contact_count(); ++i) {
+        const auto columns = w.columns(i);
+        const auto blocks = w.blocks(i);
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            column_.push_back(columns[k]);
+            block_.push_back(scale_[i] * scale_[columns[k]] * blocks[k]);
+        }
+        row_begin_.push_back(column_.size());
+    }
+}
+
+template <int Dim>
+void ConeSystem<Dim>::assign(BodyMap<Dim> bodies, std::span<const Vector<Dim>> free_velocity,
+                             std::vector<FrictionCone<Dim>> cones,
+                             const ResidualMeasure<Dim>& measure) {
+    set_common(free_velocity, std::move(cones), measure);
+    in_body_space_ = true;
+    bodies_ = std::move(bodies);
+    bodies_.scale(scale_);
+}
+
+template <int Dim>
+void ConeSystem<Dim>::multiply(const Vec& r, Vec& u) const {
+    if (in_body_space_) {
+        bodies_.to_bodies(r, v_);
+        bodies_.to_contacts(v_, u);
+        return;
+    }
+    u.resize(q_.size());
+    for (std::size_t i = 0; i < contact_count(); ++i) {
+        Vector<Dim> sum = Vector<Dim>::Zero();
+        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
+            sum.noalias() += block_[k] * r.template segment<Dim>(first(column_[k]));
+        u.template segment<Dim>(first(i)) = sum;
+    }
+}
+
+template <int Dim>
+double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < contact_count(); ++c) {
+        const Vector<Dim> rc = r.template segment<Dim>(first(c));
+        const Vector<Dim> corrected =
+            de_saxce_corrected<Dim>(u.template segment<Dim>(first(c)), cones_[c].mu);
+        sum += (rc - cones_[c].project(rc - corrected)).squaredNorm();
+    }
+    const double scale = std::max(r.norm(), q_.norm());
+    return sum == 0.0 ? 0.0 : scale == 0.0 ? 1.0 : std::sqrt(sum) / scale;
+}
+
+template <int Dim>
+bool ConeSystem<Dim>::factorize(std::span<const Matrix<Dim>> d) {
+    d_.assign(d.begin(), d.end());
+    const auto index = [](std::size_t i) { return static_cast<int>(i); };
+    if (!in_body_space_) {
+        if (!analyzed_) {
+            std::vector<std::pair<int, int>> edges;
+            for (std::size_t i = 0; i < contact_count(); ++i)
+                for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
+                    if (column_[k] != i) edges.emplace_back(index(i), index(column_[k]));
+            lu_.analyze(std::vector<int>(contact_count(), Dim), edges);
+            slots_.clear();
+            for (std::size_t i = 0; i < contact_count(); ++i)
+                for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
+                    slots_.push_back(lu_.slot(index(i), index(column_[k])));
+            analyzed_ = true;
+        }
+        lu_.set_zero();
+        for (std::size_t i = 0; i < contact_count(); ++i)
+            for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
+                auto to = lu_.block(slots_[k]);
+                to += block_[k];
+                if (column_[k] == i) to += d_[i];
+            }
+        return lu_.factorize();
+    }
+    if (!analyzed_) {
+        std::vector<std::pair<int, int>> edges;
+        for (std::size_t c = 0; c < contact_count(); ++c)
+            for (const auto& a : bodies_.entries(c))
+                for (const auto& b : bodies_.entries(c))
+                    if (a.body != b.body) edges.emplace_back(a.body, b.body);
+        lu_.analyze(bodies_.body_sizes(), edges);
+        slots_.clear();
+        for (std::size_t c = 0; c < contact_count(); ++c)
+            for (const auto& a : bodies_.entries(c))
+                for (const auto& b : bodies_.entries(c)) slots_.push_back(lu_.slot(a.body, b.body));
+        analyzed_ = true;
+    }
+    lu_.set_zero();
+    for (std::size_t k = 0; k < bodies_.body_sizes().size(); ++k)
+        lu_.block(lu_.slot(index(k), index(k))).diagonal().setOnes();
+    d_inverse_.resize(contact_count());
+    std::size_t slot = 0;
+    for (std::size_t c = 0; c < contact_count(); ++c) {
+        d_inverse_[c] = d_[c].inverse();
+        for (const auto& a : bodies_.entries(c)) {
+            const Eigen::Matrix<double, Eigen::Dynamic, Dim> left =
+                bodies_.block(a) * d_inverse_[c];
+            for (const auto& b : bodies_.entries(c))
+                lu_.block(slots_[slot++]).noalias() += left * bodies_.block(b).transpose();
+        }
+    }
+    return lu_.factorize();
+}
+
+template <int Dim>
+void ConeSystem<Dim>::apply_inverse(const Vec& b, Vec& x) const {
+    x.resize(b.size());
+    for (std::size_t c = 0; c < contact_count(); ++c)
+        x.template segment<Dim>(first(c)).noalias() =
+            d_inverse_[c] * b.template segment<Dim>(first(c));
+}
+
+template <int Dim>
+void ConeSystem<Dim>::solve_once(const Vec& b, Vec& x) {
+    if (!in_body_space_) {
+        x = b;
+        lu_.solve(x);
+        return;
+    }
+    apply_inverse(b, x);
+    bodies_.to_bodies(x, body_right_);
+    lu_.solve(body_right_);
+    bodies_.to_contacts(body_right_, left_);
+    left_ = b - left_;
+    apply_inverse(left_, x);
+}
+
+template <int Dim>
+void ConeSystem<Dim>::solve(const Vec& b, Vec& x, int refinements) {
+    solve_once(b, x);
+    Vec error(b.size());
+    double last = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < refinements; ++k) {
+        multiply(x, error);
+        for (std::size_t c = 0; c < contact_count(); ++c)
+            error.template segment<Dim>(first(c)).noalias() +=
+                d_[c] * x.template segment<Dim>(first(c));
+        error = b - error;
+        const double size = error.norm();
+        if (!(size < 0.5 * last) || size <= 1e-15 * b.norm()) return;
+        last = size;
+        solve_once(error, correction_);
+        x += correction_;
+    }
+}
+
+}  // namespace talus

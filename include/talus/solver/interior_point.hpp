@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/types.hpp>
+#include <talus/solver/cone_engine.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+struct InteriorPointParams {
+    /// Factorisations allowed [-], not negative. 10 to 30 are usual, nearly whatever the size.
+    int max_iterations = 80;
+    /// On the residual of problem/residual.hpp [-].
+    double tolerance = 1e-8;
+};
+
+/// Primal-dual interior point for the exact law of Coulomb, without de Saxce's shift. The central
+/// path of this solver asks at each contact, with z = (mu r_n, r_t) and a free slack sigma,
+///
+///   u_n r_n = eps,     (sigma, u_t) o z = eps e      (Jordan product of the second-order cone),
+///
+/// that is: normal unilaterality on its barrier, and friction on the barrier of the disc |r_t| <=
+/// mu r_n with the present r_n, sigma being the multiplier of the disc times mu r_n. For eps -> 0
+/// it gives Coulomb's law itself: as sigma enters no other equation, nothing has to open a contact
+/// that slides, which is what the shift mu |u_t| of the associated cone repairs. Directions are
+/// those of Nesterov and Todd's scaling [NesterovTodd1998] for each disc, with Mehrotra's
+/// correction [Mehrotra1992]; elimination leaves (W + D) dr = b, D block-diagonal, lower triangular
+/// in (n, t) and not symmetric, as the law is not: for that BlockLu factorises.
+///
+/// Solves hyperstatic systems and masonry in 8 to 25 factorisations, almost independently of size
+/// and tolerance, without a warm start and without using one. The problem is not monotone: the path
+/// may turn back in flowing packings with many slow slips, and steps then shrink to nothing; the
+/// status is `stalled` and the best impulses met are returned.
+template <int Dim, ContactLaw<Dim> Law>
+class InteriorPoint : public ConeEngine<Dim, Law, InteriorPoint<Dim, Law>> {
+  public:
+    explicit InteriorPoint(InteriorPointParams params = {}) : params(params) {}
+    InteriorPointParams params;
+
+  private:
+    using Base = ConeEngine<Dim, Law, InteriorPoint<Dim, Law>>;
+    friend Base;
+    using Vec = Eigen::VectorXd;
+    using Point = Vector<Dim>;
+    using Tangent = Eigen::Matrix<double, Dim - 1, 1>;
+
+    /// Nesterov and Todd's scaling of a pair of points inside the second-order cone.
+    struct Scaling {
+        Point w;  ///< of unit hyperbolic norm
+        double eta;
+        Point lambda;  ///< the scaled point, of both
+
+        Point times(const Point& x) const {
+            const double d = w.template tail<Dim - 1>().dot(x.template tail<Dim - 1>());
+            Point y;
+            y[0] = eta * (w[0] * x[0] + d);
+            y.template tail<Dim - 1>() =
+                eta * (x.template tail<Dim - 1>() +
+                       (x[0] + d / (1.0 + w[0])) * w.template tail<Dim - 1>());
+            return y;
+        }
+        Point divided(const Point& x) const {
+            const double d = w.template tail<Dim - 1>().dot(x.template tail<Dim - 1>());
+            Point y;
+            y[0] = (w[0] * x[0] - d) / eta;
+            y.template tail<Dim - 1>() = (x.template tail<Dim - 1>() +
+                                          (d / (1.0 + w[0]) - x[0]) * w.template tail<Dim - 1>()) /
+                                         eta;
+            return y;
+        }
+        Matrix<Dim> square() const {
+            Matrix<Dim> m = 2.0 * w * w.transpose();
+            m(0, 0) -= 1.0;
+            for (int d = 1; d < Dim; ++d) m(d, d) += 1.0;
+            return eta * eta * m;
+        }
+    };
+    struct Contact {
+        double mu;
+        double u_n;  ///< slack of the normal velocity
+        Point s;     ///< (sigma, slack of u_t)
+        Scaling scaling;
+        // Of the direction in hand.
+        double du_n, normal_correction;
+        Point ds, correction, right;
+    };
+
+    void iterate(Vec& r);
+
+    static double hyperbolic(const Point& x) {
+        const double t = x.template tail<Dim - 1>().norm();
+        return (x[0] - t) * (x[0] + t);
+    }
+    static Point product(const Point& a, const Point& b) {
+        Point y;
+        y[0] = a.dot(b);
+        y.template tail<Dim - 1>() =
+            a[0] * b.template tail<Dim - 1>() + b[0] * a.template tail<Dim - 1>();
+        return y;
+    }
+    /// y with product(l, y) = x.
+    static Point quotient(const Point& l, const Point& x) {
+        Point y;
+        y[0] = (l[0] * x[0] - l.template tail<Dim - 1>().dot(x.template tail<Dim - 1>())) /
+               hyperbolic(l);
+        y.template tail<Dim - 1>() =
+            (x.template tail<Dim - 1>() - y[0] * l.template tail<Dim - 1>()) / l[0];
+        return y;
+    }
+    static Scaling scaling_of(const Point& s, const Point& z) {
+        const double hs = hyperbolic(s), hz = hyperbolic(z);
+        const Point a = s / std::sqrt(hs), b = z / std::sqrt(hz);
+        Scaling k;
+        const double gamma = std::sqrt(0.5 * (1.0 + a.dot(b)));
+        k.w = a;
+        k.w[0] += b[0];
+        k.w.template tail<Dim - 1>() -= b.template tail<Dim - 1>();
+        k.w /= 2.0 * gamma;
+        k.w[0] = std::sqrt(1.0 + k.w.template tail<Dim - 1>().squaredNorm());
+        k.eta = std::pow(hs / hz, 0.25);
+        k.lambda = k.times(z);
+        return k;
+    }
+    /// Largest step that keeps x + step d in the cone.
+    static double longest_step(const Point& x, const Point& d) {
+        constexpr double far = std::numeric_limits<double>::infinity();
+        const double a = hyperbolic(d), c = hyperbolic(x);
+        const double b = x[0] * d[0] - x.template tail<Dim - 1>().dot(d.template tail<Dim - 1>());
+        double step = d[0] < 0.0 ? -x[0] / d[0] : far;
+        const double discriminant = b * b - a * c;
+        if (discriminant < 0.0) return step;
+        const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+        for (const double root : {q / a, c / q})
+            if (root > 0.0) step = std::min(step, root);
+        return step;
+    }
+    Point disc(const Vec& r, std::size_t c) const {
+        Point z = r.template segment<Dim>(Base::System::first(c));
+        z[0] *= contacts_[c].mu;
+        return z;
+    }
+
+    void start(Vec& r);
+    double scale_contacts(const Vec& r);
+    bool find_direction(const Vec& r, double target);
+    double longest_step(const Vec& r) const;
+    double gap_after(const Vec& r, double step) const;
+    void correct(const Vec& r);
+    void drop_corrections();
+
+    std::vector<Contact> contacts_;
+    std::vector<Matrix<Dim>> d_;
+    Vec u_, right_, dr_;
+};
+
+template <int Dim, ContactLaw<Dim> Law>
+void InteriorPoint<Dim, Law>::start(Vec& r) {
+    const auto& system = this->system_;
+    const double scale =
+        system.free_velocity().norm() / std::sqrt(static_cast<double>(system.contact_count()));
+    r.setZero(system.free_velocity().size());
+    for (std::size_t c = 0; c < system.contact_count(); ++c) r[system.first(c)] = scale;
+    system.multiply(r, u_);
+    u_ += system.free_velocity();
+    contacts_.resize(system.contact_count());
+    d_.resize(system.contact_count());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        Contact& k = contacts_[c];
+        k.mu = system.cone(c).mu;
+        k.s = u_.template segment<Dim>(system.first(c));
+        k.u_n = std::max(k.s[0], scale);
+        k.s[0] = k.s.template tail<Dim - 1>().norm() + scale;
+        if (k.mu == 0.0) k.s.setZero();
+    }
+}
+
+/// Scales all contacts, fills D; returns the mean complementarity.
+template <int Dim, ContactLaw<Dim> Law>
+double InteriorPoint<Dim, Law>::scale_contacts(const Vec& r) {
+    constexpr double rigid = 1e30;  // no tangential impulse
+    double gap = 0.0;
+    std::size_t pairs = 0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        Contact& k = contacts_[c];
+        const double r_n = r[Base::System::first(c)];
+        gap += k.u_n * r_n;
+        ++pairs;
+        if (k.mu > 0.0) {
+            const Point z = disc(r, c);
+            gap += k.s.dot(z);
+            ++pairs;
+            k.scaling = scaling_of(k.s, z);
+            d_[c] = k.scaling.square();
+            d_[c].template leftCols<1>() *= k.mu;
+        } else {
+            d_[c] = rigid * Matrix<Dim>::Identity();
+        }
+        d_[c].template topRows<1>().setZero();
+        d_[c](0, 0) = k.u_n / r_n;
+    }
+    return gap / static_cast<double>(pairs);
+}
+
+/// Newton's direction to the point of complementarity `target` of the path, with the corrections
+/// stored.
+template <int Dim, ContactLaw<Dim> Law>
+bool InteriorPoint<Dim, Law>::find_direction(const Vec& r, double target) {
+    right_.resize(r.size());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        Contact& k = contacts_[c];
+        const Eigen::Index i = Base::System::first(c);
+        k.right[0] = (target - k.u_n * r[i] - k.normal_correction) / r[i];
+        right_[i] = k.right[0] - (u_[i] - k.u_n);
+        auto tangential = right_.template segment<Dim - 1>(i + 1);
+        tangential.setZero();
+        if (k.mu == 0.0) continue;
+        Point x = -product(k.scaling.lambda, k.scaling.lambda) - k.correction;
+        x[0] += target;
+        const Point h = k.scaling.times(quotient(k.scaling.lambda, x));
+        k.ds = h;
+        tangential = h.template tail<Dim - 1>() -
+                     (u_.template segment<Dim - 1>(i + 1) - k.s.template tail<Dim - 1>());
+    }
+    this->system_.solve(right_, dr_);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        Contact& k = contacts_[c];
+        const Eigen::Index i = Base::System::first(c);
+        k.du_n = k.right[0] - k.u_n / r[i] * dr_[i];
+        if (k.mu > 0.0)
+            k.ds -= k.scaling.times(k.scaling.times(disc(dr_, c)));
+        else
+            dr_.template segment<Dim - 1>(i + 1).setZero();
+    }
+    return dr_.allFinite();
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+double InteriorPoint<Dim, Law>::longest_step(const Vec& r) const {
+    double step = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        const Contact& k = contacts_[c];
+        const Eigen::Index i = Base::System::first(c);
+        if (k.du_n < 0.0) step = std::min(step, -k.u_n / k.du_n);
+        if (dr_[i] < 0.0) step = std::min(step, -r[i] / dr_[i]);
+        if (k.mu > 0.0)
+            step =
+                std::min({step, longest_step(disc(r, c), disc(dr_, c)), longest_step(k.s, k.ds)});
+    }
+    return step;
+}
+
+/// Mean complementarity after a step.
+template <int Dim, ContactLaw<Dim> Law>
+double InteriorPoint<Dim, Law>::gap_after(const Vec& r, double step) const {
+    double gap = 0.0;
+    std::size_t pairs = 0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        const Contact& k = contacts_[c];
+        const Eigen::Index i = Base::System::first(c);
+        gap += (k.u_n + step * k.du_n) * (r[i] + step * dr_[i]);
+        ++pairs;
+        if (k.mu == 0.0) continue;
+        gap += (k.s + step * k.ds).dot(disc(r, c) + step * disc(dr_, c));
+        ++pairs;
+    }
+    return gap / static_cast<double>(pairs);
+}
+
+/// Mehrotra's second-order terms of the direction in hand.
+template <int Dim, ContactLaw<Dim> Law>
+void InteriorPoint<Dim, Law>::correct(const Vec&) {
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        Contact& k = contacts_[c];
+        k.normal_correction = k.du_n * dr_[Base::System::first(c)];
+        if (k.mu > 0.0)
+            k.correction = product(k.scaling.divided(k.ds), k.scaling.times(disc(dr_, c)));
+    }
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+void InteriorPoint<Dim, Law>::drop_corrections() {
+    for (Contact& k : contacts_) {
+        k.normal_correction = 0.0;
+        k.correction.setZero();
+    }
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+void InteriorPoint<Dim, Law>::iterate(Vec& best) {
+    Vec r;
+    start(r);
+    int short_steps = 0;
+    for (int k = 1; k <= params.max_iterations; ++k) {
+        const double gap = scale_contacts(r);
+        if (!std::isfinite(gap) || !this->system_.factorize(d_)) break;
+        drop_corrections();
+        if (!find_direction(r, 0.0)) break;
+        const double affine = std::min(1.0, longest_step(r));
+        // Mehrotra's rule for how far to go down, and none of it near the edge.
+        constexpr double edge = 0.1;
+        double centring = 0.8;
+        if (affine >= edge) {
+            centring = std::pow(std::max(gap_after(r, affine), 0.0) / gap, 3);
+            centring = std::clamp(centring, 1e-8, 1.0);
+            correct(r);
+        }
+        if (!find_direction(r, centring * gap)) break;
+        double step = std::min(1.0, 0.995 * longest_step(r));
+        if (step < edge) {
+            drop_corrections();
+            if (!find_direction(r, 0.8 * gap)) break;
+            step = std::min(1.0, 0.9 * longest_step(r));
+        }
+        r += step * dr_;
+        for (Contact& c : contacts_) {
+            c.u_n += step * c.du_n;
+            if (c.mu > 0.0) c.s += step * c.ds;
+        }
+        this->system_.multiply(r, u_);
+        u_ += this->system_.free_velocity();
+        if (this->offer(k, r, u_, best)) return;
+        short_steps = step < edge ? short_steps + 1 : 0;
+        if (short_steps == 5) break;
+    }
+}
+
+}  // namespace talus
