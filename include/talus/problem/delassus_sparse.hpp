@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace talus {
@@ -42,7 +44,7 @@ class DelassusSparse {
                                   std::to_string(std::max(block.row, block.column)) +
                                   ", but must be below " + std::to_string(n));
         for (std::size_t i = 0; i < n; ++i) blocks.push_back({i, i, Matrix<Dim>::Zero()});
-        compress(n, std::move(blocks));
+        compress(n, blocks);
     }
 
     std::size_t contact_count() const { return diagonal_.size(); }
@@ -121,23 +123,29 @@ class DelassusSparse {
                                       velocity_map(jacobian, i, body) * mobility *
                                           velocity_map(jacobian, j, body).transpose()});
         }
-        compress(jacobian.contact_count(), std::move(blocks));
+        compress(jacobian.contact_count(), blocks);
     }
 
     /// Sorts blocks into rows and sums those of equal place, in the order they came.
-    void compress(std::size_t n, std::vector<DelassusBlock<Dim>> blocks) {
-        std::stable_sort(blocks.begin(), blocks.end(), [](const auto& x, const auto& y) {
-            return x.row != y.row ? x.row < y.row : x.column < y.column;
+    void compress(std::size_t n, const std::vector<DelassusBlock<Dim>>& blocks) {
+        // The order is sorted, not the blocks: the buffer of a stable sort would not keep the
+        // alignment that vectors of the processor's full width ask for.
+        std::vector<std::size_t> order(blocks.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
+            return std::tie(blocks[x].row, blocks[x].column, x) <
+                   std::tie(blocks[y].row, blocks[y].column, y);
         });
         row_begin_.assign(n + 1, 0);
         diagonal_.assign(n, 0);
-        for (std::size_t k = 0; k < blocks.size(); ++k) {
-            const auto& block = blocks[k];
-            const bool again =
-                k > 0 && blocks[k - 1].row == block.row && blocks[k - 1].column == block.column;
-            if (again) {
-                value_.back() += block.value;
-                continue;
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            const auto& block = blocks[order[k]];
+            if (k > 0) {
+                const auto& last = blocks[order[k - 1]];
+                if (last.row == block.row && last.column == block.column) {
+                    value_.back() += block.value;
+                    continue;
+                }
             }
             if (block.row == block.column) diagonal_[block.row] = value_.size();
             value_.push_back(block.value);
