@@ -67,6 +67,7 @@ using AnyProblem = std::variant<BenchProblem<2>, BenchProblem<3>>;
 struct ProblemEntry {
     std::string name;
     std::function<AnyProblem()> make;
+    int dimension = 0;  ///< 0: known only when made
 };
 
 /// What impulses are worth, by two measures.

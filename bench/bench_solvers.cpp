@@ -6,14 +6,19 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
 #include <regex>
-#include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "problem_families.hpp"
@@ -52,7 +57,7 @@ struct Run {
 
 /// Solves in a child process, as often as is worth while.
 template <int Dim>
-Run run_once(const BenchProblem<Dim>& problem, const SolveFunction<Dim>& solve, double tolerance,
+Run run_once(const BenchProblem<Dim>& problem, const RegisteredSolver& solver, double tolerance,
              double limit) {
     using Vec = talus::Vector<Dim>;
     const SharedBlock<Vec> shared(problem.contact_count());
@@ -68,25 +73,28 @@ Run run_once(const BenchProblem<Dim>& problem, const SolveFunction<Dim>& solve, 
         do {
             std::copy(start.begin(), start.end(), r.begin());
             LimitedClock clock(limit);
-            const Outcome outcome = solve(problem, tolerance, clock, r);
+            const Outcome outcome = solver.function<Dim>()(problem, tolerance, clock, r);
             if (total == 0.0 || outcome.seconds < best.span()[0].seconds) best.span()[0] = outcome;
             total += std::max(outcome.seconds, 1e-7);
         } while (total < enough);
     });
     run.outcome = best.span()[0];
-    run.judgement = judge<Dim>(problem, r);
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    run.judgement = run.ending == Ending::finished || solver.in_place
+                        ? judge<Dim>(problem, r)
+                        : Judgement{unknown, unknown, unknown};
     return run;
 }
 
 /// Solves to a tolerance of *our* measure: a solver that thinks it has arrived, by a measure of its
 /// own, and has not, is asked for more. Only the last run is timed.
 template <int Dim>
-Run run_until_judged(const BenchProblem<Dim>& problem, const SolveFunction<Dim>& solve,
+Run run_until_judged(const BenchProblem<Dim>& problem, const RegisteredSolver& solver,
                      double tolerance, const Options& options) {
     constexpr int attempts = 8;
     double own = tolerance;
     for (int k = 1;; ++k) {
-        Run run = run_once(problem, solve, own, options.limit);
+        Run run = run_once(problem, solver, own, options.limit);
         const double residual =
             options.siconos_measure ? run.judgement.residual_siconos : run.judgement.residual;
         const bool finished = run.ending == Ending::finished;
@@ -118,6 +126,7 @@ class Workshop {
 class Progress {
   public:
     void expect_one_more() { ++expected_; }
+    void expect_one_less() { --expected_; }
     void done(const std::string& name, const Run& run, double seconds) {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;
         ++done_;
@@ -168,18 +177,23 @@ void run_case(benchmark::State& state, Session& session, const std::string& prob
               const RegisteredSolver& solver, const BenchProblem<Dim>& problem, double tolerance) {
     const std::string pair = problem_name + "/" + solver.name;
     state.counters["contacts"] = static_cast<double>(problem.contact_count());
-    const auto& solve = solver.template function<Dim>();
-    if (!solve || problem.contact_count() > solver.most_contacts) {
+    if (!solver.applies(Dim)) {
+        session.progress.expect_one_less();
         state.SkipWithError("does not apply");
         return;
     }
     Run run;
     if (const auto earlier = session.out_of_time.find(pair); earlier != session.out_of_time.end()) {
         run = earlier->second;
+    } else if (problem.contact_count() > solver.most_contacts) {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        run.judgement = {unknown, unknown, unknown};
+        run.outcome.seconds = session.options.limit;
+        run.outcome.set_word("too_large");
     } else {
         // Here, so that no child has to.
         if (solver.assembles) problem.assembled();
-        run = run_until_judged(problem, solve, tolerance, session.options);
+        run = run_until_judged(problem, solver, tolerance, session.options);
         if (run.ending == Ending::out_of_time) session.out_of_time.emplace(pair, run);
     }
     const double seconds =
@@ -192,6 +206,7 @@ void register_cases(Session& session) {
     for (const ProblemEntry& entry : session.problems)
         for (const RegisteredSolver& solver : session.solvers)
             for (const double tolerance : session.options.tolerances) {
+                if (!solver.applies(entry.dimension)) continue;
                 session.progress.expect_one_more();
                 const std::string name = entry.name + "/" + solver.name + "/" + text_of(tolerance);
                 benchmark::RegisterBenchmark(

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "limited_run.hpp"
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <fcntl.h>
@@ -22,13 +24,29 @@ double cpu_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Lets SIGPROF end the process after `seconds` of CPU time; 0: never.
-void arm(double seconds) {
+/// When the process has used this much CPU time, it shall end [s].
+double deadline = 0.0;
+
+/// Lets SIGALRM come after `seconds`; 0: never.
+void ring_in(double seconds) {
     itimerval timer{};
     timer.it_value.tv_sec = static_cast<std::time_t>(seconds);
     timer.it_value.tv_usec =
         static_cast<suseconds_t>(1e6 * (seconds - static_cast<double>(timer.it_value.tv_sec)));
-    setitimer(ITIMER_PROF, &timer, nullptr);
+    setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+/// Ends the process past its deadline. A timer of real time, set again while there is CPU time
+/// left: one of CPU time would make the clock of CPU time advance by scheduler ticks.
+void on_alarm(int signal) {
+    constexpr double least = 1e-3;  // [s]
+    const double left = deadline - cpu_seconds();
+    if (left > 0.0) {
+        ring_in(left > least ? left : least);
+    } else {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
 }
 
 [[noreturn]] void be_child(const std::function<void()>& work) {
@@ -54,19 +72,22 @@ Ending run_in_child(const std::function<void()>& work) {
     int status = 0;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waitpid");
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF) return Ending::out_of_time;
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return Ending::out_of_time;
     return WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS ? Ending::finished
                                                                     : Ending::crashed;
 }
 
 void LimitedClock::start() {
-    arm(limit_);
+    std::signal(SIGALRM, on_alarm);
+    begin_ = cpu_seconds();
+    deadline = begin_ + limit_;
+    ring_in(limit_);
     begin_ = cpu_seconds();
 }
 
 double LimitedClock::stop() {
     const double end = cpu_seconds();
-    arm(0.0);
+    ring_in(0.0);
     return end - begin_;
 }
 

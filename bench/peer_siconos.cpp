@@ -105,8 +105,7 @@ ProblemPointer converted(const BenchProblem<Dim>& problem, const Units& units) {
     return p;
 }
 
-/// One solver of Siconos: its number, the number of its inner solver (0: the usual one), and how
-/// many iterations it may count: it may not fill arrays of that length.
+/// One solver of Siconos: its number, and the number of its inner solver (0: the usual one).
 struct Choice {
     int solver;
     int inner = 0;
@@ -152,7 +151,12 @@ std::vector<RegisteredSolver> siconos_solvers(PeerUnits units) {
     std::vector<RegisteredSolver> solvers;
     const auto add = [&](const std::string& name, const SolveFunction<2>& plane,
                          const SolveFunction<3>& space, std::size_t most_contacts) {
-        solvers.push_back({"siconos_" + name, plane, space, true, most_contacts});
+        solvers.push_back({.name = "siconos_" + name,
+                           .plane = plane,
+                           .space = space,
+                           .in_place = false,
+                           .assembles = true,
+                           .most_contacts = most_contacts});
     };
     const auto plane = [&](int solver) { return siconos<2>({solver}, units); };
     const auto space = [&](int solver, int inner = 0) {

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace bench {
 namespace {
@@ -26,6 +28,7 @@ using World = talus::System<Dim, Law<Dim>>;
 /// A configuration at rest, and which of its contacts a step treats as effective.
 template <int Dim>
 struct Situation {
+    static constexpr int dimension = Dim;
     World<Dim> world;
     talus::StepParams step;
 };
@@ -278,13 +281,15 @@ class Catalogue {
     template <class Make>
     void add(const std::string& family, std::vector<std::size_t> usual, Make make) {
         const auto& sizes = sizes_.empty() ? usual : sizes_;
+        constexpr int dimension = decltype(make(1))::dimension;
+        const auto name = [&](std::size_t size) { return family + "-" + std::to_string(size); };
         for (const std::size_t size : sizes)
-            entries.push_back({family + "-" + std::to_string(size), [=] {
-                                   return AnyProblem(BenchProblem(problem_of(make(size), 0.0)));
-                               }});
+            entries.push_back(
+                {name(size), [=] { return AnyProblem(BenchProblem(problem_of(make(size), 0.0))); },
+                 dimension});
         const std::size_t size = sizes.front();
-        entries.push_back({family + "-" + std::to_string(size) + "-perturbed",
-                           [=] { return AnyProblem(perturbed(make(size))); }});
+        entries.push_back({name(size) + "-perturbed",
+                           [=] { return AnyProblem(perturbed(make(size))); }, dimension});
     }
 
     std::vector<ProblemEntry> entries;

@@ -42,9 +42,15 @@ struct RegisteredSolver {
     std::string name;
     SolveFunction<2> plane;
     SolveFunction<3> space;
+    /// A solve that is stopped leaves its impulses so far in r.
+    bool in_place = true;
     bool assembles = false;  ///< it uses BenchProblem::assembled also where bodies are known
     std::size_t most_contacts = std::numeric_limits<std::size_t>::max();  ///< fits into memory
 
+    /// Whether it solves problems of a dimension, where that is known.
+    bool applies(int dimension) const {
+        return (dimension != 2 || plane) && (dimension != 3 || space);
+    }
     template <int Dim>
     const SolveFunction<Dim>& function() const {
         if constexpr (Dim == 2)
