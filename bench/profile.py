@@ -130,9 +130,10 @@ class Panel:
     def y(self, share):
         return self.top + self.height * (1 - share)
 
-    def axes(self, title):
+    def axes(self, title, remark):
         bottom, right = self.top + self.height, self.left + self.width
-        out = [f'<text class="ink title" x="{self.left}" y="{self.top - 8}">{html.escape(title)}</text>']
+        out = [f'<text class="ink title" x="{self.left}" y="{self.top - 8}">{html.escape(title)}</text>'
+               f'<text class="soft" x="{right}" y="{self.top - 8}" text-anchor="end">{html.escape(remark)}</text>']
         for k in range(round(math.log10(self.last)) + 1):
             x = self.x(10 ** k)
             out.append(f'<path class="grid" d="M{x:.1f} {self.top}V{bottom}"/>'
@@ -166,7 +167,7 @@ def svg(results):
     for (left, top), tolerance in zip(places, tolerances):
         panel = Panel(left, top, last)
         count = sum(best(results, tolerance, p) is not None for p in results.problems())
-        out += panel.axes(f"residual ≤ {tolerance}: {count} of {len(results.problems())} problems solved by any")
+        out += panel.axes(f"residual ≤ {tolerance}", f"{count} of {len(results.problems())} solved by some")
         for k, solver in enumerate(solvers):
             found = ratios(results, tolerance, solver)
             if not found:
@@ -178,11 +179,11 @@ def svg(results):
         y = top + 14 + 22 * k
         out.append(f'<path d="M{left - 30} {y}h36" {line(k)}/>'
                    f'<text class="ink" x="{left + 14}" y="{y + 4}">{html.escape(solver)}'
-                   f'<tspan class="soft">{note(results, solver)}</tspan></text>')
+                   f'<tspan class="soft" dx="6">{note(results, solver)}</tspan></text>')
     dropped = len(results.solvers()) - len(solvers)
     if dropped:
         y = top + 14 + 22 * len(solvers)
-        out.append(f'<text class="soft" x="{left - 30}" y="{y + 4}">and {dropped} lower ones without a curve</text>')
+        out.append(f'<text class="soft" x="{left - 30}" y="{y + 4}">without a curve, being lower: {dropped}</text>')
     return "\n".join(out + ["</svg>\n"])
 
 
@@ -196,7 +197,7 @@ def note(results, solver):
     """Of the legend: on how many problems the solver ran, where not on all."""
     count = len({p for _, p, s in results.time if s == solver})
     total = len(results.problems())
-    return "" if count == total else f" ({count} of {total} problems)"
+    return "" if count == total else f"({count} of {total} problems)"
 
 
 def text_of_time(seconds):
