@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/solver/report.hpp>
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench_problem.hpp"
+#include "limited_run.hpp"
+
+namespace bench {
+
+/// What a solver says of its run, in plain bytes.
+struct Outcome {
+    double seconds = 0.0;         ///< CPU time of the solve alone [s]
+    int iterations = 0;           ///< as the solver counts them
+    bool converged = false;       ///< by its own verdict
+    std::array<char, 24> word{};  ///< its own word for how it ended
+
+    void set_word(std::string_view text) {
+        word.fill('\0');
+        text.copy(word.data(), word.size() - 1);
+    }
+};
+
+/// Solves from the impulses in r, into r. Starts the clock after, and stops it before, all that a
+/// simulation would not do for every solve.
+template <int Dim>
+using SolveFunction = std::function<Outcome(const BenchProblem<Dim>& problem, double tolerance,
+                                            LimitedClock& clock, std::span<talus::Vector<Dim>> r)>;
+
+/// A solver by name; a function that is empty says that it does not solve problems of that
+/// dimension.
+struct RegisteredSolver {
+    std::string name;
+    SolveFunction<2> plane;
+    SolveFunction<3> space;
+    /// A solve that is stopped leaves its impulses so far in r.
+    bool in_place = true;
+    bool assembles = false;  ///< it uses BenchProblem::assembled also where bodies are known
+    std::size_t most_contacts = std::numeric_limits<std::size_t>::max();  ///< fits into memory
+
+    /// Whether it solves problems of a dimension, where that is known.
+    bool applies(int dimension) const {
+        return (dimension != 2 || plane) && (dimension != 3 || space);
+    }
+    template <int Dim>
+    const SolveFunction<Dim>& function() const {
+        if constexpr (Dim == 2)
+            return plane;
+        else
+            return space;
+    }
+};
+
+/// A talus solver: a class `Solver` with `params.tolerance`, some limit of iterations in `params`,
+/// and `solve(problem, r)` or `solve(w, free_velocity, laws, r)`. The limit of iterations is taken
+/// away; LimitedClock sees to the end.
+template <int Dim, class Solver>
+SolveFunction<Dim> solve_with(decltype(Solver::params) params) {
+    if constexpr (requires { params.max_sweeps; })
+        params.max_sweeps = std::numeric_limits<int>::max() - 1;
+    if constexpr (requires { params.max_iterations; })
+        params.max_iterations = std::numeric_limits<int>::max() - 1;
+    return [params](const BenchProblem<Dim>& problem, double tolerance, LimitedClock& clock,
+                    std::span<talus::Vector<Dim>> r) {
+        Solver solver(params);
+        solver.params.tolerance = tolerance;
+        talus::SolveReport report;
+        Outcome outcome;
+        if (problem.bodies() != nullptr) {
+            clock.start();
+            const talus::SolveReport& result = solver.solve(*problem.bodies(), r);
+            outcome.seconds = clock.stop();
+            report = result;
+        } else {
+            auto w = problem.assembled().delassus;
+            clock.start();
+            const talus::SolveReport& result =
+                solver.solve(w, problem.free_velocity(), problem.laws(), r);
+            outcome.seconds = clock.stop();
+            report = result;
+        }
+        outcome.iterations = report.iterations;
+        outcome.converged = report.status == talus::SolveStatus::converged;
+        outcome.set_word(to_string(report.status));
+        return outcome;
+    };
+}
+
+/// The solvers of talus. A new one is one entry in solver_registry.cpp.
+std::vector<RegisteredSolver> own_solvers();
+
+/// In which units peers whose steps and stopping tests depend on them are given a problem.
+enum class PeerUnits {
+    given,   ///< those of the problem
+    scaled,  ///< effective masses of mean 1 and free velocities of root mean square 1
+};
+
+/// Solvers of other libraries that this build found; empty if none.
+std::vector<RegisteredSolver> peer_solvers(PeerUnits units);
+
+}  // namespace bench
