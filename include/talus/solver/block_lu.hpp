@@ -34,6 +34,16 @@ class BlockLu {
     void analyze(std::span<const int> node_size, std::span<const std::pair<int, int>> edges);
 
     int size() const { return offset_.empty() ? 0 : offset_.back(); }  ///< rows
+    /// Multiplications of one factorisation.
+    double operations() const {
+        double sum = 0.0;
+        for (const Front& f : fronts_) {
+            const double p = f.pivots, r = f.rest;
+            sum += p * (p * p / 3.0 + r * (p + r));
+        }
+        return sum;
+    }
+    std::size_t front_count() const { return fronts_.size(); }
     /// Numbers in the factors: what memory and the cost of a solve go with.
     std::size_t factor_size() const { return factor_.size(); }
 

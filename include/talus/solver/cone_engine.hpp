@@ -51,9 +51,20 @@ class ConeEngine {
 
     const SolveReport& report() const { return report_; }  ///< of the last solve
 
-  protected:
     using System = ConeSystem<Dim>;
+    /// Works on a problem that is already in scaled form, lent for the time of the call: improves
+    /// `best`, whose residual is given; returns the residual reached. For solvers made of engines.
+    double improve(System& system, Eigen::VectorXd& best, double residual) {
+        std::swap(system_, system);
+        report_ = {};
+        best_residual_ = residual;
+        engine().iterate(best);
+        std::swap(system_, system);
+        report_.residual = best_residual_;
+        return best_residual_;
+    }
 
+  protected:
     /// Notes an iterate; true if the solve is over.
     bool offer(int iteration, const Eigen::VectorXd& r, const Eigen::VectorXd& u,
                Eigen::VectorXd& best) {

@@ -4,10 +4,9 @@
 #include <talus/core/check.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/observer.hpp>
-#include <talus/law/prepared.hpp>
 #include <talus/problem/delassus_product.hpp>
-#include <talus/problem/residual.hpp>
 #include <talus/solver/concepts.hpp>
+#include <talus/solver/sweep_kernel.hpp>
 #include <talus/solver/sweep_order.hpp>
 
 #include <algorithm>
@@ -15,8 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -87,11 +84,11 @@ class GaussSeidel {
     const SolveReport& solve(W& w, std::span<const Vector<Dim>> free_velocity,
                              std::span<const Law> laws, std::span<Vector<Dim>> r,
                              OnSweep&& on_sweep = {}) {
-        require_sizes(w.contact_count(), free_velocity.size(), laws.size(), r.size());
+        const SweepTask<Dim, Law, W> task{w, free_velocity, laws, r};
+        task.require_sizes();
         require_non_negative("max_sweeps", params.max_sweeps);
         require_non_negative("tolerance", params.tolerance);
         require_non_negative("shuffle_after", params.shuffle_after);
-        const Task<W> task{w, free_velocity, laws, r};
         prepare(task);
         if (verify(task, 0)) return report_;
         iterate(task, on_sweep);
@@ -102,24 +99,7 @@ class GaussSeidel {
 
   private:
     template <class W>
-    struct Task {
-        W& w;
-        std::span<const Vector<Dim>> free_velocity;
-        std::span<const Law> laws;
-        std::span<Vector<Dim>> r;
-    };
-
-    static void require_sizes(std::size_t contacts, std::size_t velocities, std::size_t laws,
-                              std::size_t impulses) {
-        const auto same = [&](std::string_view item, std::size_t size) {
-            if (size != contacts)
-                throw input_error("number of " + std::string(item) + " is " + std::to_string(size) +
-                                  ", but must be that of contacts, " + std::to_string(contacts));
-        };
-        same("free velocities", velocities);
-        same("laws", laws);
-        same("impulses", impulses);
-    }
+    using Task = SweepTask<Dim, Law, W>;
 
     template <class W>
     void prepare(const Task<W>& task) {
@@ -127,11 +107,7 @@ class GaussSeidel {
         report_.history.reserve(history_limit);
         last_finite_.assign(task.r.begin(), task.r.end());
         sequence_.reset(params.order, params.seed, task.r.size());
-        measure_.prepare(task.w);
-        prepared_.clear();
-        prepared_.reserve(task.r.size());
-        for (std::size_t i = 0; i < task.r.size(); ++i)
-            prepared_.push_back(talus::prepare<Dim>(task.laws[i], task.w.diagonal_block(i)));
+        kernel_.prepare(task);
     }
 
     template <class W, class OnSweep>
@@ -144,7 +120,7 @@ class GaussSeidel {
             const double change = sweep(task);
             bool go_on = true;
             if constexpr (!std::is_same_v<std::remove_cvref_t<OnSweep>, Ignore>)
-                go_on = notify(on_sweep, k, evaluate(task).relative);
+                go_on = notify(on_sweep, k, kernel_.evaluate(task).relative);
             // Written so that a change that is not a number calls for a look.
             const bool hopeful = !(change * ratio > params.tolerance);
             if (go_on && k != params.max_sweeps && k != next_look && !hopeful) continue;
@@ -161,34 +137,15 @@ class GaussSeidel {
     template <class W>
     double sweep(const Task<W>& task) {
         double change = 0.0;
-        sequence_.next([&](std::size_t i) {
-            Vector<Dim> u = task.w.velocity(i);
-            for (int d = 0; d < Dim; ++d) u[d] += task.free_velocity[i][d];
-            const Vector<Dim> r = talus::improved<Dim>(task.laws[i], prepared_[i], u, task.r[i]);
-            Vector<Dim> dr;
-            double square = 0.0;
-            for (int d = 0; d < Dim; ++d) {
-                dr[d] = r[d] - task.r[i][d];
-                square += dr[d] * dr[d];
-                task.r[i][d] = r[d];
-            }
-            change += square / measure_.effective_mass(i);
-            task.w.add(i, dr);
-        });
+        sequence_.next([&](std::size_t i) { change += kernel_.visit(task, i); });
         return std::sqrt(change);
-    }
-
-    template <class W>
-    Residual evaluate(const Task<W>& task) const {
-        return measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
-                                               [&](std::size_t i) { return task.w.velocity(i); });
     }
 
     /// Evaluates the residual afresh, notes it, and tells whether the solve is over.
     template <class W>
     bool verify(const Task<W>& task, int sweeps) {
         task.w.start(task.r);
-        const Residual residual = evaluate(task);
+        const Residual residual = kernel_.evaluate(task);
         report_.iterations = sweeps;
         report_.status = SolveStatus::iteration_limit;
         if (!residual.finite()) {
@@ -207,9 +164,8 @@ class GaussSeidel {
 
     DelassusProduct<Dim> product_;
     DelassusProduct<Dim, double> scalar_product_;
-    std::vector<Prepared<Law, Dim>> prepared_;
+    SweepKernel<Dim, Law> kernel_;
     std::vector<Vector<Dim>> last_finite_;
-    ResidualMeasure<Dim> measure_;
     SweepSequence sequence_;
     SolveReport report_;
 };

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/input.hpp>
+#include <talus/problem/body_map.hpp>
+#include <talus/problem/delassus_product.hpp>
+#include <talus/problem/matrix_problem.hpp>
+#include <talus/solver/concepts.hpp>
+#include <talus/solver/sweep_kernel.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// How the iterates of a fixed-point map are made to converge faster.
+enum class Acceleration {
+    nesterov,  ///< momentum, restarted when increments grow: no memory, one number to keep
+    anderson,  ///< the combination of the last iterates with the least increment [WalkerNi2011]
+};
+
+struct AcceleratedGaussSeidelParams {
+    /// Double sweeps allowed [-], not negative.
+    int max_iterations = 1000;
+    /// On the residual of problem/residual.hpp [-].
+    double tolerance = 1e-8;
+    Acceleration acceleration = Acceleration::anderson;
+    /// Iterates that Anderson's combination looks back [-], in [1, 20].
+    int depth = 10;
+};
+
+/// Gauss-Seidel, forward and back in turn, as a fixed-point map whose iterates are accelerated. A
+/// symmetric pass makes the map of the problem without friction self-adjoint, which momentum needs:
+/// one-directional sweeps do not bear it.
+///
+/// Both accelerators are safeguarded by the increment |T(y) - y| that the map itself gives: when it
+/// grows, memory is dropped and plain double sweeps go on from the best iterate. So the method is
+/// never much slower than Gauss-Seidel, and 3 to 100 times faster to 1e-8 on deep or hyperstatic
+/// systems.
+///
+/// Cost per iteration: two sweeps and half a sweep for the start at y; Anderson adds 2 depth
+/// products of vectors and keeps 2 depth impulses per contact.
+template <int Dim, ContactLaw<Dim> Law>
+class AcceleratedGaussSeidel {
+  public:
+    explicit AcceleratedGaussSeidel(AcceleratedGaussSeidelParams params = {}) : params(params) {}
+    AcceleratedGaussSeidelParams params;
+
+    /// Solves `problem` from the warm start `r`, into `r`. Throws input_error on parameters out of
+    /// range or arrays of different lengths.
+    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
+        if (has_scalar_inertia(problem.inverse_mass)) {
+            scalar_product_.assign(problem.jacobian, problem.inverse_mass);
+            return solve(scalar_product_, problem.free_velocity, problem.laws, r);
+        }
+        product_.assign(problem.jacobian, problem.inverse_mass);
+        return solve(product_, problem.free_velocity, problem.laws, r);
+    }
+    const SolveReport& solve(AssembledProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
+        return solve(problem.delassus, problem.free_velocity, problem.laws, r);
+    }
+    /// The same with an operator of the caller's.
+    template <SweepableDelassus<Dim> W>
+    const SolveReport& solve(W& w, std::span<const Vector<Dim>> free_velocity,
+                             std::span<const Law> laws, std::span<Vector<Dim>> r) {
+        const SweepTask<Dim, Law, W> task{w, free_velocity, laws, r};
+        task.require_sizes();
+        require_non_negative("max_iterations", params.max_iterations);
+        require_non_negative("tolerance", params.tolerance);
+        require_in("depth", params.depth, 1, 20);
+        report_.history.clear();
+        report_.history.reserve(64);
+        kernel_.prepare(task);
+        kept_.assign(r.begin(), r.end());
+        if (!verify(task, 0)) iterate(task);
+        return report_;
+    }
+
+    const SolveReport& report() const { return report_; }  ///< of the last solve
+
+  private:
+    template <class W>
+    using Task = SweepTask<Dim, Law, W>;
+    using Vec = Eigen::VectorXd;
+
+    template <class W>
+    void iterate(const Task<W>& task) {
+        const std::size_t n = task.r.size();
+        y_.assign(task.r.begin(), task.r.end());
+        reset();
+        double ratio = 0.0, best = std::numeric_limits<double>::infinity();
+        int next_look = 1;
+        for (int k = 1; k <= params.max_iterations; ++k) {
+            // x = T(y): task.r holds y, then x.
+            for (std::size_t i = 0; i < n; ++i) kernel_.visit(task, i);
+            for (std::size_t i = n; i-- > 0;) kernel_.visit(task, i);
+            double change = 0.0;
+            for (std::size_t i = 0; i < n; ++i)
+                change += (task.r[i] - y_[i]).squaredNorm() / kernel_.measure().effective_mass(i);
+            change = std::sqrt(change);
+            const bool hopeful = !(change * ratio > params.tolerance);
+            if (k == params.max_iterations || k == next_look || hopeful) {
+                if (verify(task, k) || change == 0.0) return;
+                ratio = report_.residual / change;
+                if (k == next_look) next_look += 1 + next_look / 2;
+            }
+            if (params.acceleration == Acceleration::nesterov)
+                momentum(task.r, change);
+            else
+                combine(task.r, change, best);
+            std::copy(y_.begin(), y_.end(), task.r.begin());
+            task.w.start(task.r);
+        }
+    }
+
+    void reset() {
+        time_ = 1.0;
+        last_change_ = std::numeric_limits<double>::infinity();
+        columns_ = 0;
+        newest_ = -1;
+        has_last_ = false;
+    }
+
+    /// y := x + beta (x - x_before), without memory after an increment that grew.
+    void momentum(std::span<const Vector<Dim>> x, double change) {
+        if (change > last_change_ || time_ == 1.0) {
+            x_.assign(x.begin(), x.end());
+            y_.assign(x.begin(), x.end());
+            const bool first = time_ == 1.0 && change <= last_change_;
+            time_ = first ? 0.5 * (1.0 + std::sqrt(5.0)) : 1.0;
+            last_change_ = first ? change : std::numeric_limits<double>::infinity();
+            return;
+        }
+        last_change_ = change;
+        const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * time_ * time_));
+        const double beta = (time_ - 1.0) / next;
+        time_ = next;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            y_[i] = x[i] + beta * (x[i] - x_[i]);
+            x_[i] = x[i];
+        }
+    }
+
+    /// y := the affine combination of the last T(y) whose increment is least. `best` is the
+    /// smallest increment met.
+    void combine(std::span<const Vector<Dim>> x, double change, double& best) {
+        const auto n = static_cast<Eigen::Index>(Dim * x.size());
+        const int depth = params.depth;
+        if (image_.rows() != n || image_.cols() != depth) {
+            image_.resize(n, depth);
+            increment_.resize(n, depth);
+        }
+        gram_.resize(depth, depth);
+        last_image_.resize(n);
+        last_increment_.resize(n);
+        now_image_.resize(n);
+        now_increment_.resize(n);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const double scale = 1.0 / std::sqrt(kernel_.measure().effective_mass(i));
+            const auto at = static_cast<Eigen::Index>(Dim * i);
+            now_image_.template segment<Dim>(at) = scale * x[i];
+            now_increment_.template segment<Dim>(at) = scale * (x[i] - y_[i]);
+        }
+        if (change > 2.0 * best) {
+            reset();
+            best = change;
+            y_.assign(x.begin(), x.end());
+            return;
+        }
+        best = std::min(best, change);
+        if (has_last_) {
+            newest_ = (newest_ + 1) % depth;
+            columns_ = std::min(columns_ + 1, depth);
+            image_.col(newest_) = now_image_ - last_image_;
+            increment_.col(newest_) = now_increment_ - last_increment_;
+            for (int j = 0; j < columns_; ++j)
+                gram_(newest_, j) = gram_(j, newest_) =
+                    increment_.col(newest_).dot(increment_.col(j));
+        }
+        last_image_.swap(now_image_);
+        last_increment_.swap(now_increment_);
+        has_last_ = true;
+        if (columns_ == 0) {
+            y_.assign(x.begin(), x.end());
+            return;
+        }
+        small_ = gram_.topLeftCorner(columns_, columns_);
+        constexpr double regular = 1e-10;  // Gram matrices carry half the digits
+        small_.diagonal().array() += regular * small_.trace();
+        weights_ = increment_.leftCols(columns_).transpose() * last_increment_;
+        weights_ = small_.ldlt().solve(weights_).eval();
+        now_image_.noalias() = last_image_ - image_.leftCols(columns_) * weights_;
+        if (!now_image_.allFinite()) {
+            reset();
+            y_.assign(x.begin(), x.end());
+            return;
+        }
+        for (std::size_t i = 0; i < x.size(); ++i)
+            y_[i] = now_image_.template segment<Dim>(static_cast<Eigen::Index>(Dim * i)) *
+                    std::sqrt(kernel_.measure().effective_mass(i));
+    }
+
+    /// Evaluates the residual afresh, notes it, and tells whether the solve is over.
+    template <class W>
+    bool verify(const Task<W>& task, int iterations) {
+        task.w.start(task.r);
+        const Residual residual = kernel_.evaluate(task);
+        report_.iterations = iterations;
+        report_.status = SolveStatus::iteration_limit;
+        if (!residual.finite()) {
+            std::copy(kept_.begin(), kept_.end(), task.r.begin());
+            report_.status = SolveStatus::not_finite;
+        } else if (residual.relative <= params.tolerance) {
+            report_.status = SolveStatus::converged;
+        } else {
+            std::copy(task.r.begin(), task.r.end(), kept_.begin());
+        }
+        report_.residual = residual.relative;
+        report_.history.push_back({iterations, residual.relative});
+        return report_.status != SolveStatus::iteration_limit;
+    }
+
+    DelassusProduct<Dim> product_;
+    DelassusProduct<Dim, double> scalar_product_;
+    SweepKernel<Dim, Law> kernel_;
+    std::vector<Vector<Dim>> x_, y_, kept_;
+    double time_ = 1.0, last_change_ = 0.0;
+    // Anderson's memory, in scaled units: differences of T(y) and of T(y) - y, in a ring.
+    Eigen::MatrixXd image_, increment_, gram_, small_;
+    Vec last_image_, last_increment_, now_image_, now_increment_, weights_;
+    int columns_ = 0, newest_ = -1;
+    bool has_last_ = false;
+    SolveReport report_;
+};
+
+}  // namespace talus

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/input.hpp>
+#include <talus/law/prepared.hpp>
+#include <talus/problem/residual.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// What solvers by sweeps do again and again: solve one contact with the others as they are. `w`
+/// follows the impulses `r`.
+template <int Dim, ContactLaw<Dim> Law, class W>
+struct SweepTask {
+    W& w;
+    std::span<const Vector<Dim>> free_velocity;
+    std::span<const Law> laws;
+    std::span<Vector<Dim>> r;
+
+    /// Throws input_error unless all arrays have one entry per contact.
+    void require_sizes() const {
+        const auto same = [&](const char* item, std::size_t size) {
+            if (size != w.contact_count())
+                throw input_error("number of " + std::string(item) + " is " + std::to_string(size) +
+                                  ", but must be that of contacts, " +
+                                  std::to_string(w.contact_count()));
+        };
+        same("free velocities", free_velocity.size());
+        same("laws", laws.size());
+        same("impulses", r.size());
+    }
+};
+
+/// The part of a sweep that depends on W and the laws alone, and one visit.
+template <int Dim, ContactLaw<Dim> Law>
+class SweepKernel {
+  public:
+    template <class W>
+    void prepare(const SweepTask<Dim, Law, W>& task) {
+        measure_.prepare(task.w);
+        prepared_.clear();
+        prepared_.reserve(task.r.size());
+        for (std::size_t i = 0; i < task.r.size(); ++i)
+            prepared_.push_back(talus::prepare<Dim>(task.laws[i], task.w.diagonal_block(i)));
+    }
+
+    /// Solves contact i; returns the square of its change, |dr|^2 / rho [J].
+    template <class W>
+    double visit(const SweepTask<Dim, Law, W>& task, std::size_t i) const {
+        Vector<Dim> u = task.w.velocity(i);
+        for (int d = 0; d < Dim; ++d) u[d] += task.free_velocity[i][d];
+        const Vector<Dim> r = talus::improved<Dim>(task.laws[i], prepared_[i], u, task.r[i]);
+        Vector<Dim> dr;
+        double square = 0.0;
+        for (int d = 0; d < Dim; ++d) {
+            dr[d] = r[d] - task.r[i][d];
+            square += dr[d] * dr[d];
+            task.r[i][d] = r[d];
+        }
+        task.w.add(i, dr);
+        return square / measure_.effective_mass(i);
+    }
+
+    /// The residual at the impulses that `w` follows. Costs about half a sweep.
+    template <class W>
+    Residual evaluate(const SweepTask<Dim, Law, W>& task) const {
+        return measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
+                                               [&](std::size_t i) { return task.w.velocity(i); });
+    }
+
+    const ResidualMeasure<Dim>& measure() const { return measure_; }
+
+  private:
+    ResidualMeasure<Dim> measure_;
+    std::vector<Prepared<Law, Dim>> prepared_;
+};
+
+}  // namespace talus
