@@ -1,7 +1,7 @@
 # Headers that need the HDF5 C library, and the target that brings it to them where it is found.
-list(TRANSFORM
-  [[hdf5_handle;hdf5_reader;hdf5_writer;problem_file;read_problem;step_dump;write_problem]]
-  REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/include/talus/io/\\1.hpp" OUTPUT_VARIABLE talus_hdf5_headers)
+set(talus_hdf5_headers hdf5_handle hdf5_reader hdf5_writer problem_file read_problem step_dump write_problem)
+list(TRANSFORM talus_hdf5_headers PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/include/talus/io/)
+list(TRANSFORM talus_hdf5_headers APPEND .hpp)
 
 if(TALUS_HDF5)
   include(cmake/find_hdf5.cmake)
