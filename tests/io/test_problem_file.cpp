@@ -403,9 +403,10 @@ BOOST_AUTO_TEST_CASE(wrong_sizes_and_indices_are_named) {
 
 BOOST_AUTO_TEST_CASE(a_length_without_numbers_behind_it_costs_no_memory) {
     const Damage damage;
-    damage.local("fclib_local/vectors/mu is cut off, but must be whole", [](const auto& path) {
-        Hdf5Surgery(path).replace_by_claim("fclib_local/vectors/mu", 1'000'000'000'000);
-    });
+    damage.local(
+        "fclib_local/vectors/mu was never written, but must be whole", [](const auto& path) {
+            Hdf5Surgery(path).replace_by_claim("fclib_local/vectors/mu", 1'000'000'000'000);
+        });
     damage.local("fclib_local/vectors/mu is cut off, but must be whole", [](const auto& path) {
         // The file holds the length of mu, and the most it may grow to, as two numbers of 8 bytes.
         std::string bytes = content_of(path);
@@ -414,6 +415,14 @@ BOOST_AUTO_TEST_CASE(a_length_without_numbers_behind_it_costs_no_memory) {
         BOOST_REQUIRE(at != std::string::npos);
         talus::write_file(path, bytes.replace(at, 16, larger + larger));
     });
+}
+
+BOOST_AUTO_TEST_CASE(velocities_never_written_are_zero) {
+    const Damage damage;
+    talus::write_problem(damage.path, random_global<3>(1));
+    const auto size = talus::read_problem<3>(damage.path).global->force.size();
+    Hdf5Surgery(damage.path).replace_by_claim("guesses/1/v", static_cast<std::size_t>(size));
+    BOOST_TEST(talus::read_problem<3>(damage.path).guesses[0].velocity.norm() == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(words_of_any_length_are_read) {

@@ -51,11 +51,6 @@ void check(const std::filesystem::path& path) {
     BOOST_TEST(!content.info.title.empty());
     const std::vector<Vector<Dim>> none(contacts, Vector<Dim>::Zero());
     BOOST_TEST(residual_at<Dim>(local, none).finite());
-    if (content.solution) {
-        // Whoever solved it asked for 1e-16 and may have stopped before.
-        const double solved = 1e-6;
-        BOOST_TEST(residual_at<Dim>(local, content.solution->impulse).relative < solved);
-    }
     if (!content.global) return;
     const double rounding = 1e-9;  // M of the finite elements has a condition of some 1e4
     std::vector<Vector<Dim>> r(contacts);

@@ -41,8 +41,14 @@ class Hdf5Reader {
         return true;
     }
 
-    /// How many numbers a dataset holds.
-    std::size_t length(const std::string& name) const { return count(name, dataset(name)); }
+    /// How many numbers a dataset holds, which must be in the file.
+    std::size_t length(const std::string& name) const {
+        const auto set = dataset(name);
+        const std::size_t found = count(name, set);
+        if (found > 0 && H5Dget_storage_size(set.id()) == 0)
+            fail(name, "was never written, but must be whole");
+        return found;
+    }
 
     /// The one number of a dataset, in [low, high].
     std::int64_t integer(const std::string& name, std::int64_t low,
@@ -141,14 +147,16 @@ class Hdf5Reader {
         return values;
     }
 
-    /// A length is a claim; only what is in the file deserves memory.
+    /// A length is a claim; only what is in the file deserves memory. A dataset that was never
+    /// written stands for zeros: some writers have no velocities to store.
     void require_stored(const std::string& name, const Hdf5Handle& set, hid_t type,
                         std::size_t length) const {
+        const std::size_t stored = H5Dget_storage_size(set.id());
+        if (stored == 0) return;
         const Hdf5Handle creation(H5Dget_create_plist(set.id()), &H5Pclose);
         const bool packed = H5Pget_layout(creation.id()) == H5D_CHUNKED;
-        const std::size_t stored = H5Dget_storage_size(set.id()), size = H5Tget_size(type);
-        const bool missing = packed ? length > 0 && stored == 0 : stored / size < length;
-        if (missing || stored > std::filesystem::file_size(path_))
+        if (stored > std::filesystem::file_size(path_) ||
+            (!packed && stored / H5Tget_size(type) < length))
             fail(name, "is cut off, but must be whole");
     }
 
