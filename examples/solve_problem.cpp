@@ -17,6 +17,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,9 +100,9 @@ int run(const Options& o) {
     return refused ? 2 : converged ? 0 : 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Reads the command line; nothing if it asked for help, which was then printed. Throws
+/// input_error, one sentence, on anything wrong.
+std::optional<Options> read_options(int argc, char** argv) {
     Options o;
     double iterations = o.settings.iterations;
     CLI::App app(
@@ -111,21 +113,30 @@ int main(int argc, char** argv) {
     app.footer("Exit code: 0 if all converged, 1 if some did not, 2 on wrong options or files.\n");
     app.add_option("FILE", o.files, "problem files")->required();
     app.add_option("--solver", o.solver, "one of " + solver_names());
+    add_number(app, "--tolerance", o.settings.tolerance, 0, 1, "on the residual (1e-8)");
+    add_number(app, "--iterations", iterations, 0, 1e9, "allowed per problem (10000)");
+    app.add_option("--json", o.json, "file for the same figures");
     try {
-        add_number(app, "--tolerance", o.settings.tolerance, 0, 1, "on the residual (1e-8)");
-        add_number(app, "--iterations", iterations, 0, 1e9, "allowed per problem (10000)");
-        app.add_option("--json", o.json, "file for the same figures");
         app.parse(argc, argv);
-        o.settings.iterations = static_cast<int>(iterations);
-        return run(o);
     } catch (const CLI::Success&) {
         std::fputs(app.help().c_str(), stdout);
-        return 0;
+        return std::nullopt;
     } catch (const CLI::ParseError& error) {
-        std::fprintf(stderr, "solve_problem: %s (solve_problem --help lists the options)\n",
-                     error.what());
+        throw talus::input_error(std::string(error.what()) +
+                                 " (solve_problem --help lists the options)");
+    }
+    o.settings.iterations = static_cast<int>(iterations);
+    return o;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const auto options = read_options(argc, argv);
+        return options ? run(*options) : 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "solve_problem: %s\n", error.what());
+        return 2;
     }
-    return 2;
 }

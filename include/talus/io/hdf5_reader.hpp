@@ -65,7 +65,7 @@ class Hdf5Reader {
 
     /// The finite numbers of a dataset.
     std::vector<double> numbers(const std::string& name, std::size_t length) const {
-        const auto values = read<double>(name, H5T_FLOAT, H5T_NATIVE_DOUBLE, length);
+        auto values = read<double>(name, H5T_FLOAT, H5T_NATIVE_DOUBLE, length);
         for (std::size_t k = 0; k < length; ++k)
             if (!std::isfinite(values[k]))
                 fail(name + "[" + std::to_string(k) + "]",

@@ -64,7 +64,7 @@ class Hdf5Writer {
     Hdf5Handle create(const std::filesystem::path& path) const {
         constexpr std::size_t growth = 1 << 20;  // bytes of memory taken at a time
         const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-        require(H5Pset_fapl_core(access.id(), growth, /*backing_store=*/0) >= 0);
+        require(H5Pset_fapl_core(access.id(), growth, /*backing_store=*/false) >= 0);
         // HDF5 wants a name, and looks for it on disk.
         Hdf5Handle file(
             H5Fcreate((path.string() + ".part").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()),
