@@ -13,6 +13,7 @@ packages=(
     g++ cmake ninja-build libeigen3-dev                 # the library
     libboost-test-dev libgsl-dev pkg-config python3     # the tests
     libcli11-dev nlohmann-json3-dev librsvg2-bin        # the examples
+    libhdf5-dev                                         # problem files: tests and examples
     libbenchmark-dev                                    # the benches
     chromium chromium-driver                            # the test of the validation report
     clang clang-format clang-tidy libclang-rt-14-dev    # the checks

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSL-1.0
+//
+// Contact problems from files of other codes (FCLib's format): each is solved from zero impulses,
+// and judged twice: by the residual of problem/residual.hpp, which does not depend on units, and by
+// the absolute natural map of the exact law in the file's units, as Siconos does.
+//
+// Sample run:  solve_problem KaplasTower-i1061-4.hdf5 --tolerance 1e-6 --json verdict.json
+// Exit code: 0 if all converged, 1 if some did not, 2 on wrong options or files.
+#include <talus/io/problem_file.hpp>
+#include <talus/io/write_file.hpp>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "number_option.hpp"
+#include "solver_choice.hpp"
+
+namespace {
+
+struct Options {
+    std::vector<std::string> files;
+    std::string solver = "gauss_seidel";
+    SolverSettings settings;
+    std::string json;  ///< file; empty: none
+};
+
+/// || r - P_K(r - (u + mu |u_t| n)) || / max(|| q ||, || r ||, || u ||) over all contacts; 0 / 0 is
+/// 0.
+template <int Dim>
+double residual_in_file_units(const FrictionProblem<Dim>& p,
+                              const std::vector<talus::Vector<Dim>>& r) {
+    const auto u = talus::solution_of<Dim>(p, r).relative_velocity;
+    double error = 0.0, q2 = 0.0, r2 = 0.0, u2 = 0.0;
+    for (std::size_t c = 0; c < r.size(); ++c) {
+        error += (r[c] - p.laws[c].natural_map(u[c], r[c], 1.0)).squaredNorm();
+        q2 += p.free_velocity[c].squaredNorm();
+        r2 += r[c].squaredNorm();
+        u2 += u[c].squaredNorm();
+    }
+    return error > 0.0 ? std::sqrt(error / std::max({q2, r2, u2})) : 0.0;
+}
+
+template <int Dim>
+nlohmann::json solve(const std::string& file, const Options& o) {
+    const auto content = talus::read_problem<Dim>(file);
+    auto problem = talus::assembled(content);
+    std::vector<talus::Vector<Dim>> r(problem.contact_count(), talus::Vector<Dim>::Zero());
+    const auto start = std::chrono::steady_clock::now();
+    const auto report = solver_named<Dim>(o.solver).solve(problem, r, o.settings);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    return {{"name", std::filesystem::path(file).stem().string()},
+            {"dimension", Dim},
+            {"contacts", problem.contact_count()},
+            {"solver", o.solver},
+            {"status", std::string(to_string(report.status))},
+            {"iterations", report.iterations},
+            {"seconds", time.count()},
+            {"residual", report.residual},
+            {"residual_in_file_units", residual_in_file_units<Dim>(problem, r)}};
+}
+
+/// A line of the table.
+void print(const nlohmann::json& j) {
+    std::printf("%-40s %dD %5zu  %s %-15s %6d iterations %10.3f ms  %.1e  %.1e\n",
+                j["name"].get<std::string>().c_str(), j["dimension"].get<int>(),
+                j["contacts"].get<std::size_t>(), j["solver"].get<std::string>().c_str(),
+                j["status"].get<std::string>().c_str(), j["iterations"].get<int>(),
+                1e3 * j["seconds"].get<double>(), j["residual"].get<double>(),
+                j["residual_in_file_units"].get<double>());
+}
+
+/// Solves all that can be; returns the exit code.
+int run(const Options& o) {
+    solver_named<3>(o.solver);
+    nlohmann::json all = nlohmann::json::array();
+    bool converged = true, refused = false;
+    std::printf(
+        "problem, dimension, contacts, solver, status, iterations, time, residual, residual in "
+        "file units\n");
+    for (const auto& file : o.files) try {
+            all.push_back(talus::problem_dimension(file) == 2 ? solve<2>(file, o)
+                                                              : solve<3>(file, o));
+            print(all.back());
+            converged = converged && all.back()["status"] == "converged";
+        } catch (const talus::input_error& error) {
+            std::fprintf(stderr, "solve_problem: %s\n", error.what());
+            refused = true;
+        }
+    if (!o.json.empty()) talus::write_file(o.json, all.dump(1) + "\n");
+    return refused ? 2 : converged ? 0 : 1;
+}
+
+/// Reads the command line; nothing if it asked for help, which was then printed. Throws
+/// input_error, one sentence, on anything wrong.
+std::optional<Options> read_options(int argc, char** argv) {
+    Options o;
+    double iterations = o.settings.iterations;
+    CLI::App app(
+        "Solves contact problems with Coulomb friction from files in FCLib's HDF5 format, from "
+        "zero\n"
+        "impulses, and prints one line for each.\n",
+        "solve_problem");
+    app.footer("Exit code: 0 if all converged, 1 if some did not, 2 on wrong options or files.\n");
+    app.add_option("FILE", o.files, "problem files")->required();
+    app.add_option("--solver", o.solver, "one of " + solver_names());
+    add_number(app, "--tolerance", o.settings.tolerance, 0, 1, "on the residual (1e-8)");
+    add_number(app, "--iterations", iterations, 0, 1e9, "allowed per problem (10000)");
+    app.add_option("--json", o.json, "file for the same figures");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success&) {
+        std::fputs(app.help().c_str(), stdout);
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        throw talus::input_error(std::string(error.what()) +
+                                 " (solve_problem --help lists the options)");
+    }
+    o.settings.iterations = static_cast<int>(iterations);
+    return o;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const auto options = read_options(argc, argv);
+        return options ? run(*options) : 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "solve_problem: %s\n", error.what());
+        return 2;
+    }
+}
