@@ -13,7 +13,7 @@ double root(Function f, double low, double high, int& count) {
         ++count;
         return f(x);
     };
-    return talus::bracketed_root(counted, {low, f(low)}, {high, f(high)});
+    return talus::bracketed_root(counted, {low, f(low)}, {high, f(high)}).best().x;
 }
 
 }  // namespace

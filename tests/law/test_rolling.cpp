@@ -166,6 +166,44 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(answer_is_where_the_natural_map_leads, R, rolling_
     BOOST_TEST(slips > 30);
 }
 
+// Rods and points on which several impulses have one effect: any of the answers will do, but one
+// there is.
+BOOST_AUTO_TEST_CASE_TEMPLATE(singular_blocks_are_solved_where_answers_are_not_unique, R,
+                              rolling_rows) {
+    constexpr int n = R::value;
+    RandomBlocks random(48);
+    for (int k = 0; k < 20000; ++k) {
+        const talus::Matrix<n> w = random.semidefinite<n>(random.integer(1, n - 1));
+        const talus::LocalProblem<n> p{w, w * random.normal<n>()};
+        const double limit = 0.25 / coupling<n>(w);
+        const talus::RollingCoulomb<n> law{limit * random.log_uniform(1e-3, 1.0),
+                                           limit * random.log_uniform(1e-3, 1.0)};
+        const double friction = law.mu + law.mu_r;
+        BOOST_TEST(law_error<n>(law, p, law.solve(p, p.b)) <= 1e-13 * (1.0 + friction));
+    }
+}
+
+// The same bodies with moments in N m or in N nm.
+BOOST_AUTO_TEST_CASE_TEMPLATE(units_of_moments_do_not_matter, R, rolling_rows) {
+    constexpr int n = R::value, half = (n - 1) / 2;
+    RandomBlocks random(49);
+    for (int k = 0; k < 2000; ++k) {
+        const talus::LocalProblem<n> p{random.well_conditioned<n>(), random.normal<n>()};
+        const double limit = 0.25 / coupling<n>(p.W);
+        const talus::RollingCoulomb<n> law{random.uniform(0.0, limit), random.uniform(0.0, limit)};
+        const double length = random.log_uniform(1e-12, 1e12);
+        talus::Vector<n> unit = talus::Vector<n>::Ones();
+        unit.template tail<half>().setConstant(length);
+        const talus::RollingCoulomb<n> other{law.mu, law.mu_r / length};
+        const talus::Vector<n> r = law.solve(p, p.b);
+        const talus::Vector<n> scaled = unit.asDiagonal() * p.b;
+        const talus::Vector<n> same =
+            unit.asDiagonal() *
+            other.solve({unit.asDiagonal() * p.W * unit.asDiagonal(), scaled}, scaled);
+        BOOST_TEST((same - r).norm() <= same_answer * (1.0 + r.norm()));
+    }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(without_or_apart_from_rolling_it_is_coulombs_law, R, rolling_rows) {
     constexpr int n = R::value, dim = (n + 1) / 2;
     RandomBlocks random(47);

@@ -5,7 +5,9 @@
 #include <talus/law/rolling_cone.hpp>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Jacobi>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,10 +31,14 @@ namespace talus {
 ///
 /// The disks. With a multiplier a for the second one, r_m = -(W_mm + a)^-1 (f_m + W_mt r_t) is
 /// eliminated; what is left is one disk, a trust region problem [MoreSorensen1983]. |r_m| falls
-/// with a, and 1 / |r_m| is nearly linear in it.
+/// with a, and 1 / |r_m| is nearly linear in it. Where W_qq is singular and many q are minimal,
+/// |r_m| may jump over the radius: then the answer lies between the q of both sides.
 ///
-/// No solution exists if W_nn = 0 and b_n < 0, and perhaps if W is singular: then r is 0, or the
-/// impulse without friction, and the natural map shows it.
+/// Rolling rows may have units of their own: they are first measured in the length, a power of two,
+/// that makes W_mm as large as W_tt, so that what counts as rounding does not depend on units.
+///
+/// No solution exists if W_nn = 0 and b_n < 0, and perhaps if W is singular and mu |W_tn| + mu_r
+/// |W_mn| > W_nn: then r is 0, or the impulse without friction, and the natural map shows it.
 template <int Rows>
 requires RollingRows<Rows>
 class RollingBlock {
@@ -40,11 +46,13 @@ class RollingBlock {
     explicit RollingBlock(const Matrix<Rows>& w);
 
     /// The impulse from the velocity b without it.
-    Vector<Rows> solution(double mu, double mu_r, const Vector<Rows>& b) const;
+    Vector<Rows> solution(double mu, double mu_r, const Vector<Rows>& b) const {
+        return rescaled(scaled_solution(mu, mu_r / length_, rescaled(b)));
+    }
     /// The new impulse from the velocity u = W r + b that the present impulse r leads to.
     Vector<Rows> improved(double mu, double mu_r, const Vector<Rows>& u,
                           const Vector<Rows>& r) const {
-        return solution(mu, mu_r, u - w_ * r);
+        return rescaled(scaled_solution(mu, mu_r / length_, rescaled(u) - w_ * unscaled(r)));
     }
 
   private:
@@ -53,12 +61,24 @@ class RollingBlock {
     using Part = Eigen::Matrix<double, T, 1>;  ///< tangential, or rolling
     using PartMatrix = Eigen::Matrix<double, T, T>;
 
+    /// Spins times the length, moments over it: u and r as the members below have them, and back.
+    Vector<Rows> rescaled(Vector<Rows> x) const {
+        x.template tail<T>() *= length_;
+        return x;
+    }
+    Vector<Rows> unscaled(Vector<Rows> x) const {
+        x.template tail<T>() /= length_;
+        return x;
+    }
+    Vector<Rows> scaled_solution(double mu, double mu_r, const Vector<Rows>& b) const;
     bool stick(const Vector<Rows>& b, Vector<Rows>& r) const;
     Vector<Rows> dragged(double s, double mu, double mu_r, const Vector<Rows>& b) const;
     bool held_by(double a, const Part& f_t, const Part& f_m, double disk_t, Part& r_t,
                  Part& r_m) const;
-    static Part in_disk(const PartMatrix& w, Part f, double rounding, double radius);
+    static double entry(const Part& x, const Part& d, double radius);
+    static Part in_disk(PartMatrix w, Part f, double flat, double rounding, double radius);
 
+    double length_ = 1.0;      ///< unit of the rolling rows
     Matrix<Rows> w_;           ///< symmetric [1/kg]
     Matrix<Rows> axes_;        ///< eigenvectors of W, in columns
     Vector<Rows> inverse_;     ///< of its eigenvalues [kg]; 0 for those that are 0 to rounding
@@ -69,22 +89,28 @@ class RollingBlock {
 
 template <int Rows>
 requires RollingRows<Rows> RollingBlock<Rows>::RollingBlock(const Matrix<Rows>& w) : w_(w) {
-    const double rounding = 8.0 * epsilon * w.trace();
-    const Eigen::SelfAdjointEigenSolver<Matrix<Rows>> all(w);
+    const double ratio =
+        w.diagonal().template segment<T>(1).sum() / w.diagonal().template tail<T>().sum();
+    if (ratio > 0.0 && std::isfinite(ratio))
+        length_ = std::exp2(std::round(0.5 * std::log2(ratio)));
+    w_.template rightCols<T>() *= length_;
+    w_.template bottomRows<T>() *= length_;
+    const double rounding = 8.0 * epsilon * w_.trace();
+    const Eigen::SelfAdjointEigenSolver<Matrix<Rows>> all(w_);
     axes_ = all.eigenvectors();
     for (int i = 0; i < Rows; ++i)
         inverse_[i] = all.eigenvalues()[i] > rounding ? 1.0 / all.eigenvalues()[i] : 0.0;
     const Eigen::SelfAdjointEigenSolver<PartMatrix> rolling(
-        PartMatrix(w.template bottomRightCorner<T, T>()));
+        PartMatrix(w_.template bottomRightCorner<T, T>()));
     rolling_axes_ = rolling.eigenvectors();
     rolling_ = rolling.eigenvalues();
-    rolling_ = (rolling_.array() > rounding).select(rolling_, 0.0);
-    coupling_ = w.template block<T, T>(1, 1 + T) * rolling_axes_;
+    rolling_ = (rolling_.array() > 8.0 * epsilon * rolling_.sum()).select(rolling_, 0.0);
+    coupling_ = w_.template block<T, T>(1, 1 + T) * rolling_axes_;
 }
 
 template <int Rows>
-requires RollingRows<Rows> Vector<Rows> RollingBlock<Rows>::solution(double mu, double mu_r,
-                                                                     const Vector<Rows>& b)
+requires RollingRows<Rows> Vector<Rows> RollingBlock<Rows>::scaled_solution(double mu, double mu_r,
+                                                                            const Vector<Rows>& b)
 const {
     if (b[0] >= 0.0 || w_(0, 0) <= epsilon * w_.trace()) return Vector<Rows>::Zero();
     Vector<Rows> r;
@@ -104,7 +130,7 @@ const {
         high.f = normal_velocity(high.x);
     }
     if (high.f < 0.0) return frictionless * Vector<Rows>::Unit(0);
-    return dragged(bracketed_root(normal_velocity, low, high), mu, mu_r, b);
+    return dragged(bracketed_root(normal_velocity, low, high).best().x, mu, mu_r, b);
 }
 
 /// The r of least norm that makes u = 0, or false if there is none.
@@ -141,7 +167,18 @@ const {
         // Here |r_m| <= |f_m + W_mt r_t| / a is in the disk.
         const double bound = (f_m.norm() + coupling_.norm() * disk_t) / disk_m;
         const Sample high{bound, excess(bound)};
-        if (high.f > 0.0) excess(bracketed_root(excess, low, high));
+        if (high.f > 0.0) {
+            const Bracket root = bracketed_root(excess, low, high);
+            const bool met = std::abs(root.best().f) <= 4.0 * epsilon;
+            excess((met ? root.best() : root.negative()).x);
+            if (!met) {  // where several q are minimal the disk's edge lies between two of them
+                const Part out_t = r_t, out_m = r_m;
+                excess(root.positive().x);
+                const double part = entry(out_m, r_m - out_m, disk_m);
+                r_t = out_t + part * (r_t - out_t);
+                r_m = out_m + part * (r_m - out_m);
+            }
+        }
         const double length = r_m.norm();
         if (length > 0.0) r_m *= disk_m / length;
     }
@@ -163,7 +200,7 @@ bool RollingBlock<Rows>::held_by(double a, const Part& f_t, const Part& f_m, dou
     const Eigen::Matrix<double, T, T> back = coupling_ * mobility.asDiagonal();
     const Part drag = back * f_m;
     const PartMatrix w_tt = w_.template block<T, T>(1, 1);
-    r_t = in_disk(w_tt - back * coupling_.transpose(), f_t - drag,
+    r_t = in_disk(w_tt - back * coupling_.transpose(), f_t - drag, 8.0 * epsilon * w_tt.trace(),
                   16.0 * epsilon * (f_t.norm() + drag.norm()), disk_t);
     const Part u_m = f_m + coupling_.transpose() * r_t;
     const double rounding = 16.0 * epsilon * (f_m.norm() + coupling_.norm() * r_t.norm());
@@ -173,17 +210,34 @@ bool RollingBlock<Rows>::held_by(double a, const Part& f_t, const Part& f_m, dou
     return true;
 }
 
-/// The q with |q| <= radius of least q w q / 2 + f q. What in f is below `rounding` counts as 0
-/// where w is singular.
+/// The least t in [0, 1] with |x + t d| = radius, from outside inwards; 1 if there is none.
 template <int Rows>
 requires RollingRows<Rows>
-typename RollingBlock<Rows>::Part RollingBlock<Rows>::in_disk(const PartMatrix& w, Part f,
+double RollingBlock<Rows>::entry(const Part& x, const Part& d, double radius) {
+    const double inwards = -x.dot(d), length = x.norm();
+    const double outside = (length - radius) * (length + radius);
+    if (!(outside > 0.0)) return 1.0;
+    const double root = std::sqrt(std::max(0.0, inwards * inwards - d.squaredNorm() * outside));
+    return outside < inwards + root ? outside / (inwards + root) : 1.0;
+}
+
+/// The q with |q| <= radius of least q w q / 2 + f q. Stiffness below `flat` counts as 0, and
+/// there what in f is below `rounding`.
+template <int Rows>
+requires RollingRows<Rows>
+typename RollingBlock<Rows>::Part RollingBlock<Rows>::in_disk(PartMatrix w, Part f, double flat,
                                                               double rounding, double radius) {
     if (!(radius > 0.0)) return Part::Zero();
-    const Eigen::SelfAdjointEigenSolver<PartMatrix> eigen(w);
-    const double flat = 8.0 * epsilon * w.cwiseAbs().maxCoeff();
-    const Part stiffness = (eigen.eigenvalues().array() > flat).select(eigen.eigenvalues(), 0.0);
-    f = eigen.eigenvectors().transpose() * f;
+    PartMatrix axes = PartMatrix::Identity();
+    if constexpr (T > 1) {  // one rotation makes two rows diagonal
+        Eigen::JacobiRotation<double> turn;
+        turn.makeJacobi(w, 0, 1);
+        w.applyOnTheLeft(0, 1, turn.adjoint());
+        w.applyOnTheRight(0, 1, turn);
+        axes.applyOnTheRight(0, 1, turn);
+    }
+    const Part stiffness = (w.diagonal().array() > flat).select(w.diagonal(), 0.0);
+    f = axes.transpose() * f;
     for (int i = 0; i < T; ++i)
         if (stiffness[i] == 0.0 && std::abs(f[i]) <= rounding) f[i] = 0.0;
     // No component may leave the disk by itself: a lower bound, from where Newton's method on
@@ -206,7 +260,7 @@ typename RollingBlock<Rows>::Part RollingBlock<Rows>::in_disk(const PartMatrix& 
     }
     const double length = q.norm();
     if (a > 0.0 && length > 0.0) q *= radius / length;
-    return eigen.eigenvectors() * q;
+    return axes * q;
 }
 
 }  // namespace talus
