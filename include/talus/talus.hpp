@@ -6,6 +6,8 @@
 #include <talus/core/version.hpp>
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
+#include <talus/law/cohesive.hpp>
+#include <talus/law/rolling_coulomb.hpp>
 #include <talus/law/signorini.hpp>
 #include <talus/measure/energy_ledger.hpp>
 #include <talus/measure/grain_load.hpp>
