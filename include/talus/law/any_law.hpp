@@ -46,7 +46,7 @@ requires(sizeof...(Laws) > 0) struct AnyLaw {
             },
             law);
     }
-    std::optional<FrictionCone<Rows>> friction_cone() const requires SpaceDimension<Rows> {
+    auto friction_cone() const requires SpaceDimension<Rows> {
         return std::visit([](const auto& l) { return cone_of<Rows>(l); }, law);
     }
     /// Throws input_error naming `item` unless the chosen law is valid.

@@ -37,7 +37,7 @@ struct Signorini {
         result[0] = std::max(0.0, r[0] - rho * u[0]);
         return result;
     }
-    FrictionCone<Rows> friction_cone() const requires SpaceDimension<Rows> { return {0.0}; }
+    auto friction_cone() const requires SpaceDimension<Rows> { return FrictionCone<Rows>{0.0}; }
 };
 static_assert(PreparableLaw<Signorini<2>, 2> && PreparableLaw<Signorini<3>, 3>);
 

@@ -48,9 +48,7 @@ struct WeightedMean {
         return law.natural_map(u, r, rho);
     }
     /// That of `law`: the restitution shift is in the free velocity.
-    std::optional<FrictionCone<Rows>> friction_cone() const requires SpaceDimension<Rows> {
-        return cone_of<Rows>(law);
-    }
+    auto friction_cone() const requires SpaceDimension<Rows> { return cone_of<Rows>(law); }
     /// Throws input_error naming `item` unless both restitutions lie in [0, 1] and `law` is valid.
     void require_valid(std::string_view item) const {
         const std::string name(item);
