@@ -13,7 +13,9 @@
 #include <talus/measure/grain_load.hpp>
 #include <talus/measure/momentum.hpp>
 #include <talus/measure/penetration.hpp>
+#include <talus/problem/body_map.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 #include <talus/problem/matrix_problem.hpp>
+#include <talus/solver/automatic.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>

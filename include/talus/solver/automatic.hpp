@@ -262,20 +262,20 @@ class Automatic {
     bool nothing_separates(W& w, std::span<const Vector<Dim>> free_velocity) {
         const std::size_t n = w.contact_count();
         smooth_.assign(n, Signorini<Dim>{});
-        kept_.assign(n, Vector<Dim>::Zero());
+        ray_.assign(n, Vector<Dim>::Zero());
         constexpr int sweeps = 32;
         frictionless_.params = {.max_sweeps = sweeps, .tolerance = 0.0};
-        frictionless_.solve(w, free_velocity, std::span<const Signorini<Dim>>(smooth_), kept_);
-        velocity_ = kept_;
-        frictionless_.solve(w, free_velocity, std::span<const Signorini<Dim>>(smooth_), kept_);
+        frictionless_.solve(w, free_velocity, std::span<const Signorini<Dim>>(smooth_), ray_);
+        velocity_ = ray_;
+        frictionless_.solve(w, free_velocity, std::span<const Signorini<Dim>>(smooth_), ray_);
         for (std::size_t i = 0; i < n; ++i) {
-            const double growth = kept_[i][0] - velocity_[i][0];
-            kept_[i] = std::max(growth, 0.0) * Vector<Dim>::Unit(0);
+            const double growth = ray_[i][0] - velocity_[i][0];
+            ray_[i] = std::max(growth, 0.0) * Vector<Dim>::Unit(0);
             // Between obstacles every impulse moves nothing.
             if (w.diagonal_block(i).isZero(0.0) && free_velocity[i][0] < 0.0) return true;
         }
         Eigen::VectorXd l, u;
-        system_.to_scaled(kept_, l);
+        system_.to_scaled(ray_, l);
         system_.multiply(l, u);
         constexpr double rounding = 1e-9;
         const double size = l.norm();
@@ -284,6 +284,11 @@ class Automatic {
                    -1e-6 * size * system_.free_velocity().template lpNorm<Eigen::Infinity>();
     }
 
+    /// Impulses that run away make any residual small: large ones must show that they may be.
+    bool runs_away() const {
+        constexpr double suspicious = 1e5;
+        return scaled_.norm() > suspicious * system_.free_velocity().norm();
+    }
     /// Takes the impulses of the factorising engines if they are better by the one measure.
     template <class W>
     bool take_over(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
@@ -297,18 +302,19 @@ class Automatic {
                 .template evaluate<Law>(free_velocity, laws, r,
                                         [&](std::size_t i) { return velocity_[i]; })
                 .relative;
-        if (residual <= report_.residual)
-            report_.residual = residual;
-        else
+        if (!(residual <= report_.residual)) {
             std::copy(kept_.begin(), kept_.end(), r.begin());
+        } else if (residual <= params.tolerance && runs_away() &&
+                   nothing_separates(w, free_velocity)) {
+            std::copy(kept_.begin(), kept_.end(), r.begin());
+            report_.status = SolveStatus::no_solution;
+            return true;
+        } else {
+            report_.residual = residual;
+        }
         report_.history.push_back({report_.iterations, report_.residual});
         if (report_.residual > params.tolerance) return false;
         report_.status = SolveStatus::converged;
-        // Impulses that run away make any residual small: large ones must show that they may be.
-        constexpr double suspicious = 1e5;
-        if (scaled_.norm() > suspicious * system_.free_velocity().norm() &&
-            nothing_separates(w, free_velocity))
-            report_.status = SolveStatus::no_solution;
         return true;
     }
 
@@ -322,7 +328,7 @@ class Automatic {
     System system_;
     ResidualMeasure<Dim> measure_;
     std::vector<FrictionCone<Dim>> cones_;
-    std::vector<Vector<Dim>> kept_, velocity_;
+    std::vector<Vector<Dim>> kept_, velocity_, ray_;
     std::vector<Signorini<Dim>> smooth_;
     Eigen::VectorXd scaled_;
     SolveReport report_;
