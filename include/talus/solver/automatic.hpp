@@ -307,6 +307,7 @@ class Automatic {
         } else if (residual <= params.tolerance && runs_away() &&
                    nothing_separates(w, free_velocity)) {
             std::copy(kept_.begin(), kept_.end(), r.begin());
+            report_.history.push_back({report_.iterations, report_.residual});
             report_.status = SolveStatus::no_solution;
             return true;
         } else {
