@@ -122,7 +122,7 @@ class Automatic {
         const double worth =
             usual_factorizations * system_.factorization_cost() / (cost_of_pass * visits);
         // Sweeps go on while they promise an end soon, and at least for a quarter of that cost.
-        while (passes_ < 0.25 * worth || passes_to_go() < 0.5 * worth)
+        while (sweeps_left_ > 1 && (passes_ < 0.25 * worth || passes_to_go() < 0.5 * worth))
             if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
         factorizations_left_ = params.max_factorizations;
         for (const double margin : {0.1, 1.0, 0.01}) {
@@ -203,7 +203,13 @@ class Automatic {
         speed_[momentum] = done > 0 ? std::log(before / report_.residual) / done : 0.0;
         sweeps_left_ -= 2 * done;
         passes_ += done;
-        return finished();
+        if (finished()) return true;
+        // It ended before its time: nothing moves any more, and no sweep will change that.
+        if (done < last_passes_) {
+            report_.status = SolveStatus::stalled;
+            sweeps_left_ = 0;
+        }
+        return false;
     }
     /// The same, the other way round.
     template <class W>

@@ -100,6 +100,7 @@ class BlockLu {
     void place_blocks();
     static bool eliminate(Eigen::Ref<Dense> a, int* exchange);
 
+    std::vector<int> ordered_offset_;    ///< first row of each position
     std::vector<int> offset_;            ///< first row of each node
     std::vector<int> row_begin_;         ///< of each node in neighbour_
     std::vector<int> neighbour_;         ///< of each node, ascending, itself included
@@ -108,10 +109,10 @@ class BlockLu {
     std::vector<int> slots_of_front_, slots_begin_;
     std::vector<Front> fronts_;
     std::vector<int> update_;  ///< positions
-    std::vector<int> exchange_;
+    std::vector<int> exchange_, scatter_;
+    std::vector<int> local_;  ///< row in the front in hand, of each position
     std::vector<double> values_, factor_, stack_, work_;
     mutable std::vector<double> gathered_;
-    mutable std::vector<int> solve_offset_;
 };
 
 inline void BlockLu::analyze(std::span<const int> node_size,
@@ -323,6 +324,12 @@ inline void BlockLu::place_blocks() {
     }
     work_.resize(largest);
     stack_.resize(deepest);
+    ordered_offset_.clear();
+    int first = 0;
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+        ordered_offset_.push_back(first);
+        first += width(static_cast<int>(k));
+    }
 }
 
 /// LU with row exchanges of the upper square of `a` (as many rows as columns count), in place;
@@ -362,7 +369,8 @@ inline bool BlockLu::eliminate(Eigen::Ref<Dense> a, int* exchange) {
 
 inline bool BlockLu::factorize() {
     std::size_t top = 0;
-    std::vector<int> local(position_.size(), 0);
+    std::vector<int>& local = local_;
+    local.assign(position_.size(), 0);
     for (std::size_t index = 0; index < fronts_.size(); ++index) {
         const Front& f = fronts_[index];
         const int rows = f.pivots + f.rest;
@@ -385,16 +393,15 @@ inline bool BlockLu::factorize() {
         for (std::size_t c = f.children.size(); c-- > 0;) {
             const Front& child = fronts_[node(f.children[c])];
             top -= node(child.rest) * node(child.rest);
-            const Eigen::Map<const Dense> s(stack_.data() + top, child.rest, child.rest);
-            int column_from = 0;
-            for (const int j : updates(child)) {
-                int row_from = 0;
-                for (const int i : updates(child)) {
-                    a.block(local[node(i)], local[node(j)], width(i), width(j)) +=
-                        s.block(row_from, column_from, width(i), width(j));
-                    row_from += width(i);
-                }
-                column_from += width(j);
+            const double* from = stack_.data() + top;
+            // Row of the front for each row of the child's part.
+            scatter_.clear();
+            for (const int k : updates(child))
+                for (int d = 0; d < width(k); ++d) scatter_.push_back(local[node(k)] + d);
+            for (const int column : scatter_) {
+                double* to = work_.data() + static_cast<std::ptrdiff_t>(column) * rows;
+                for (std::size_t i = 0; i < scatter_.size(); ++i) to[scatter_[i]] += from[i];
+                from += child.rest;
             }
         }
         auto pivot = a.topLeftCorner(f.pivots, f.pivots);
@@ -423,14 +430,10 @@ inline void BlockLu::solve(Eigen::Ref<Eigen::VectorXd> x) const {
     TALUS_CHECK(x.size() == size(), "one number per row");
     gathered_.resize(node(size()) + work_.size());
     Eigen::Map<Eigen::VectorXd> y(gathered_.data(), size());
-    std::vector<int>& offset = solve_offset_;
-    offset.resize(order_.size());
-    int row = 0;
+    const std::vector<int>& offset = ordered_offset_;
     for (std::size_t k = 0; k < order_.size(); ++k) {
-        offset[k] = row;
         const int w = width(static_cast<int>(k));
-        y.segment(row, w) = x.segment(offset_[node(order_[k])], w);
-        row += w;
+        y.segment(offset[k], w) = x.segment(offset_[node(order_[k])], w);
     }
     double* const rest = gathered_.data() + size();
     const auto each = [&](const Front& f, auto&& visit) {

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -96,7 +97,7 @@ class ConeSystem {
     BlockLu lu_;
     std::vector<int> slots_;
     std::vector<Small> d_, d_inverse_;
-    Vec left_, correction_, body_right_;
+    Vec left_, correction_, error_, body_right_;
 };
 
 template <int Dim>
@@ -257,7 +258,7 @@ void ConeSystem<Dim>::solve_once(const Vec& b, Vec& x) {
 template <int Dim>
 void ConeSystem<Dim>::solve(const Vec& b, Vec& x, int refinements) {
     solve_once(b, x);
-    Vec error(b.size());
+    Vec& error = error_;
     double last = std::numeric_limits<double>::infinity();
     for (int k = 0; k < refinements; ++k) {
         multiply(x, error);

@@ -157,7 +157,7 @@ class InteriorPoint : public ConeEngine<Dim, Law, InteriorPoint<Dim, Law>> {
     bool find_direction(const Vec& r, double target);
     double longest_step(const Vec& r) const;
     double gap_after(const Vec& r, double step) const;
-    void correct(const Vec& r);
+    void correct();
     void drop_corrections();
 
     std::vector<Contact> contacts_;
@@ -288,7 +288,7 @@ double InteriorPoint<Dim, Law>::gap_after(const Vec& r, double step) const {
 
 /// Mehrotra's second-order terms of the direction in hand.
 template <int Dim, ContactLaw<Dim> Law>
-void InteriorPoint<Dim, Law>::correct(const Vec&) {
+void InteriorPoint<Dim, Law>::correct() {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
         Contact& k = contacts_[c];
         k.normal_correction = k.du_n * dr_[Base::System::first(c)];
@@ -323,7 +323,7 @@ void InteriorPoint<Dim, Law>::iterate(Vec& best) {
         if (affine >= edge) {
             centring = std::pow(std::max(gap_after(r, affine), 0.0) / gap, 3);
             centring = std::clamp(centring, 1e-8, 1.0);
-            correct(r);
+            correct();
         }
         if (!find_direction(r, centring * gap)) break;
         double step = std::min(1.0, 0.995 * longest_step(r));
