@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/law/coulomb.hpp>
+#include <talus/problem/body_map.hpp>
 #include <talus/problem/matrix_problem.hpp>
 #include <talus/problem/residual.hpp>
 
@@ -29,9 +30,15 @@ class BenchProblem {
 
     explicit BenchProblem(Bodies problem) : bodies_(std::move(problem)) {}
     explicit BenchProblem(Assembled problem) : assembled_(std::move(problem)) {}
+    explicit BenchProblem(const talus::GlobalProblem<Dim, Law<Dim>>& problem)
+        : assembled_(talus::assembled(problem)) {
+        global_.emplace(assembled_->delassus, problem.mass, problem.contact_map);
+    }
 
     /// Null for a problem that came as a matrix.
     const Bodies* bodies() const { return bodies_ ? &*bodies_ : nullptr; }
+    /// Null unless it came as M and H.
+    const talus::DelassusGlobal<Dim>* global() const { return global_ ? &*global_ : nullptr; }
     /// Assembled when first asked for.
     const Assembled& assembled() const {
         if (!assembled_)
@@ -59,6 +66,7 @@ class BenchProblem {
   private:
     std::optional<Bodies> bodies_;
     mutable std::optional<Assembled> assembled_;
+    std::optional<talus::DelassusGlobal<Dim>> global_;
 };
 
 using AnyProblem = std::variant<BenchProblem<2>, BenchProblem<3>>;

@@ -16,7 +16,9 @@ namespace {
 
 template <int Dim>
 AnyProblem read(const std::filesystem::path& path) {
-    return BenchProblem<Dim>(talus::assembled(talus::read_problem<Dim>(path)));
+    const auto content = talus::read_problem<Dim>(path);
+    if (content.global) return BenchProblem<Dim>(*content.global);
+    return BenchProblem<Dim>(talus::assembled(content));
 }
 
 }  // namespace

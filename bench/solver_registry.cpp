@@ -1,23 +1,38 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "solver_registry.hpp"
 
+#include <talus/solver/accelerated_gauss_seidel.hpp>
+#include <talus/solver/automatic.hpp>
 #include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/interior_point.hpp>
 #ifdef TALUS_BENCH_SICONOS
 #include "peer_siconos.hpp"
 #endif
 
 namespace bench {
 
+namespace {
+
+template <template <int, class> class Solver>
+RegisteredSolver own(const char* name, const decltype(Solver<2, Law<2>>::params)& params = {}) {
+    return {name, solve_with<2, Solver<2, Law<2>>>(params),
+            solve_with<3, Solver<3, Law<3>>>(params)};
+}
+
+}  // namespace
+
 std::vector<RegisteredSolver> own_solvers() {
     std::vector<RegisteredSolver> solvers;
-    const auto gauss_seidel = [&](const char* name, const talus::GaussSeidelParams& params) {
-        solvers.push_back({name, solve_with<2, talus::GaussSeidel<2, Law<2>>>(params),
-                           solve_with<3, talus::GaussSeidel<3, Law<3>>>(params)});
-    };
-    gauss_seidel("gauss_seidel", {});
-    talus::GaussSeidelParams symmetric;
-    symmetric.order = talus::SweepOrder::symmetric;
-    gauss_seidel("gauss_seidel_symmetric", symmetric);
+    using talus::Acceleration;
+    solvers.push_back(own<talus::Automatic>("automatic"));
+    solvers.push_back(own<talus::GaussSeidel>("gauss_seidel"));
+    solvers.push_back(
+        own<talus::GaussSeidel>("gauss_seidel_symmetric", {.order = talus::SweepOrder::symmetric}));
+    solvers.push_back(
+        own<talus::AcceleratedGaussSeidel>("nesterov", {.acceleration = Acceleration::nesterov}));
+    solvers.push_back(
+        own<talus::AcceleratedGaussSeidel>("anderson", {.acceleration = Acceleration::anderson}));
+    solvers.push_back(own<talus::InteriorPoint>("interior_point"));
     return solvers;
 }
 

@@ -80,6 +80,13 @@ SolveFunction<Dim> solve_with(decltype(Solver::params) params) {
             const talus::SolveReport& result = solver.solve(*problem.bodies(), r);
             outcome.seconds = clock.stop();
             report = result;
+        } else if (problem.global() != nullptr) {
+            auto w = *problem.global();
+            clock.start();
+            const talus::SolveReport& result =
+                solver.solve(w, problem.free_velocity(), problem.laws(), r);
+            outcome.seconds = clock.stop();
+            report = result;
         } else {
             auto w = problem.assembled().delassus;
             clock.start();

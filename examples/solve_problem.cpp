@@ -29,7 +29,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> files;
-    std::string solver = "gauss_seidel";
+    std::string solver = "automatic";
     SolverSettings settings;
     std::string json;  ///< file; empty: none
 };

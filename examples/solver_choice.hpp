@@ -4,7 +4,10 @@
 #include <talus/core/input.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/matrix_problem.hpp>
+#include <talus/solver/accelerated_gauss_seidel.hpp>
+#include <talus/solver/automatic.hpp>
 #include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/interior_point.hpp>
 
 #include <array>
 #include <span>
@@ -44,7 +47,12 @@ talus::SolveReport solve_with(FrictionProblem<Dim>& p, std::span<talus::Vector<D
 /// The table of solvers: one line each.
 template <int Dim>
 inline constexpr std::array solver_choices{
+    SolverChoice<Dim>{"automatic", &solve_with<talus::Automatic<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"gauss_seidel", &solve_with<talus::GaussSeidel<Dim, talus::Coulomb<Dim>>>},
+    SolverChoice<Dim>{"accelerated_gauss_seidel",
+                      &solve_with<talus::AcceleratedGaussSeidel<Dim, talus::Coulomb<Dim>>>},
+    SolverChoice<Dim>{"interior_point",
+                      &solve_with<talus::InteriorPoint<Dim, talus::Coulomb<Dim>>>},
 };
 
 inline std::string solver_names() {

@@ -47,4 +47,14 @@ struct HalfPrepared : Archetype<3> {
 };
 static_assert(talus::ContactLaw<HalfPrepared, 3> && !talus::PreparableLaw<HalfPrepared, 3>);
 
+/// Laws may have more rows than space, of a known number.
+static_assert(talus::ContactLaw<Archetype<5>, 5> && !talus::ContactLaw<Archetype<5>, 3>);
+template <int N>
+constexpr bool is_contact = talus::ContactRows<N>;
+template <int N>
+constexpr bool is_rolling = talus::RollingRows<N>;
+static_assert(is_contact<2> && is_contact<3> && is_contact<5> && !is_contact<4> && !is_contact<6>);
+static_assert(!is_rolling<2> && is_rolling<3> && is_rolling<5>);
+static_assert(!talus::has_rolling_rows<Archetype<3>>);
+
 }  // namespace

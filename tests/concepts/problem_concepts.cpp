@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <talus/law/any_law.hpp>
+#include <talus/law/coulomb.hpp>
+#include <talus/law/rolling_coulomb.hpp>
 #include <talus/problem/concepts.hpp>
+#include <talus/problem/contact_problem.hpp>
 
 namespace {
 
@@ -33,5 +37,15 @@ struct BlockWithoutValue : Sweepable {
     void diagonal_block(std::size_t) const {}
 };
 static_assert(!talus::DelassusOperator<BlockWithoutValue, 3>);
+
+/// Rigid bodies give the rows of space: three rows of the plane are not those.
+template <class Law, int Dim>
+concept OfRigidBodies = requires {
+    typename talus::ContactProblem<Dim, Law>;
+};
+using Rolling = talus::RollingCoulomb<3>;
+static_assert(OfRigidBodies<talus::Coulomb<3>, 3> && !OfRigidBodies<Rolling, 3>);
+static_assert(!OfRigidBodies<talus::AnyLaw<3, talus::Coulomb<3>, Rolling>, 3>);
+static_assert(!OfRigidBodies<talus::RollingCoulomb<5>, 5>);
 
 }  // namespace

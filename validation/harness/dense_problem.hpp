@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/problem/concepts.hpp>
+#include <talus/problem/delassus_sparse.hpp>
 
 #include <Eigen/Core>
 
@@ -23,6 +24,16 @@ struct DenseProblem {
     std::vector<Law<Dim>> laws;
 
     std::size_t contact_count() const { return free_velocity.size(); }
+    /// W block by block.
+    std::vector<talus::DelassusBlock<Dim>> blocks() const {
+        std::vector<talus::DelassusBlock<Dim>> all;
+        for (std::size_t i = 0; i < contact_count(); ++i)
+            for (std::size_t j = 0; j < contact_count(); ++j)
+                all.push_back({i, j,
+                               w.block<Dim, Dim>(Dim * static_cast<Eigen::Index>(i),
+                                                 Dim * static_cast<Eigen::Index>(j))});
+        return all;
+    }
 };
 
 /// Such a W as the solver wants it: a Delassus operator.

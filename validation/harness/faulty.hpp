@@ -177,14 +177,16 @@ struct FaultyHooks : talus::NoHooks {
     void problem_known(System& system, Data& data) {
         for (std::size_t c = 0; c < data.contact_count(); ++c) {
             const V<Dim> u = talus::relative_velocity<Dim>(data.problem.jacobian, c, data.begin);
-            const Law<Dim>& law = data.problem.laws[c];
+            const auto& law = data.problem.laws[c];
             V<Dim>& b = data.problem.free_velocity[c];
-            // theta = 1 / (1 + e) too large by 2 %: e too small by 2 % of (1 + e).
-            if (fault == Fault::restitution_weight)
-                b[0] -= 0.02 * (1.0 + law.restitution_normal) * u[0];
-            if (fault == Fault::friction_on_end_velocity)
-                b.template tail<Dim - 1>() -=
-                    law.restitution_tangential * u.template tail<Dim - 1>();
+            if constexpr (requires { law.restitution_normal; }) {
+                // theta = 1 / (1 + e) too large by 2 %: e too small by 2 % of (1 + e).
+                if (fault == Fault::restitution_weight)
+                    b[0] -= 0.02 * (1.0 + law.restitution_normal) * u[0];
+                if (fault == Fault::friction_on_end_velocity)
+                    b.template tail<Dim - 1>() -=
+                        law.restitution_tangential * u.template tail<Dim - 1>();
+            }
         }
         if (fault == Fault::wrong_warm_start && data.contact_count() > 1)
             std::rotate(data.impulse.begin(), data.impulse.begin() + 1, data.impulse.end());

@@ -22,6 +22,11 @@ namespace {
 using namespace validation;
 using nlohmann::ordered_json;
 
+const std::map<std::string, SolverKind> solver_kinds = {{"gauss_seidel", SolverKind::gauss_seidel},
+                                                        {"automatic", SolverKind::automatic}};
+const std::map<SolverKind, std::string> solver_names = {{SolverKind::gauss_seidel, "gauss_seidel"},
+                                                        {SolverKind::automatic, "automatic"}};
+
 struct Options {
     int gate = 2;
     bool full = false;
@@ -31,6 +36,7 @@ struct Options {
     std::uint64_t seed = 1;
     bool list = false;
     bool mutants = false;
+    SolverKind solver = SolverKind::gauss_seidel;
     double patience = 1.0;
     std::string output = "report.json";
     std::string commit, command;
@@ -212,6 +218,7 @@ void write(const Options& options, const std::vector<Result>& results, ordered_j
                                 {"filter", options.filter},
                                 {"dim", options.dim},
                                 {"jobs", options.jobs},
+                                {"solver", solver_names.at(options.solver)},
                                 {"seed", options.seed}}},
                               {"summary",
                                {{"cases", cases.size()},
@@ -240,7 +247,7 @@ int run(const Options& options) {
         return 2;
     }
     const auto start = std::chrono::steady_clock::now();
-    const RunOptions run_options{options.jobs, options.full, options.seed};
+    const RunOptions run_options{options.jobs, options.full, options.seed, options.solver};
     const Progress progress;
     std::size_t done = 0;
     const std::vector<Result> results =
@@ -308,6 +315,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--seed", options.seed, "of all random realisations")->capture_default_str();
     app.add_flag("--list", options.list, "list the cases and stop");
+    app.add_option("--solver", options.solver, "that the cases run with")
+        ->transform(CLI::CheckedTransformer(solver_kinds));
     app.add_flag("--mutants", options.mutants,
                  "put each fault into the method and see who notices");
     app.add_option("--patience", options.patience,

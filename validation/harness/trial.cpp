@@ -178,7 +178,9 @@ World<Dim> Trial<Dim>::world(const WorldParams<Dim>& params, talus::MaterialTabl
         listener.after_first_step = [this](const World<Dim>& w) {
             if (draws()) draw(w);
         };
-    return World<Dim>(params, std::move(laws), fault(), std::move(listener));
+    WorldParams<Dim> with_solver = params;
+    with_solver.kind = solver_kind();
+    return World<Dim>(with_solver, std::move(laws), fault(), std::move(listener));
 }
 
 template <int Dim>

@@ -112,6 +112,7 @@ struct TrialParams {
     bool full = false;             ///< the longer ranges of parameters
     bool stop_at_failure = false;  ///< throw Caught
     std::uint64_t seed = 1;
+    SolverKind solver = SolverKind::gauss_seidel;
 };
 
 /// What a case records while it runs, without regard to the dimension.
@@ -121,6 +122,7 @@ class TrialRecord {
 
     bool full() const { return params_.full; }
     Fault fault() const { return params_.fault; }
+    SolverKind solver_kind() const { return params_.solver; }
     bool faulty(Fault fault) const { return params_.fault == fault; }
     /// A generator for the k-th realisation; the same for the same seed of the run.
     std::mt19937_64 rng(std::uint64_t k = 0) const;
@@ -251,7 +253,7 @@ class Trial : public TrialRecord {
     template <class AnyProblem>
     talus::SolveReport solve(const AnyProblem& problem, std::vector<V<Dim>>& r,
                              const talus::GaussSeidelParams& params) {
-        const auto report = validation::solve<Dim>(problem, r, params, fault());
+        const auto report = validation::solve<Dim>(problem, r, params, fault(), solver_kind());
         solved(report.residual, params.tolerance);
         return report;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "world.hpp"
 
+#include <talus/solver/automatic.hpp>
+
 #include "faulty.hpp"
 
 namespace validation {
@@ -20,6 +22,10 @@ class Engine {
     virtual Equilibrium<Dim> equilibrium(const talus::EquilibriumParams& params,
                                          const talus::ImpulseCache<Dim>& start) = 0;
 };
+
+talus::AutomaticParams automatic(const talus::GaussSeidelParams& params) {
+    return {.tolerance = params.tolerance, .max_sweeps = params.max_sweeps};
+}
 
 namespace {
 
@@ -53,6 +59,11 @@ std::unique_ptr<Engine<Dim>> make_engine(const WorldParams<Dim>& params,
     talus::SimulationParams settings;
     settings.h = params.h;
     settings.step = params.step;
+    if (fault == Fault::none && params.kind == SolverKind::automatic) {
+        using Solver = talus::Automatic<Dim, Law<Dim>>;
+        return std::make_unique<EngineOf<Dim, Solver, talus::NoHooks>>(
+            std::move(system), settings, Solver(automatic(params.solver)), talus::NoHooks{});
+    }
     if (fault == Fault::none) {
         using Solver = talus::GaussSeidel<Dim, Law<Dim>>;
         return std::make_unique<EngineOf<Dim, Solver, talus::NoHooks>>(
@@ -158,7 +169,10 @@ Equilibrium<Dim> World<Dim>::equilibrium(const talus::ImpulseCache<Dim>& start, 
 
 template <int Dim>
 talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
-                         const talus::GaussSeidelParams& params, Fault fault) {
+                         const talus::GaussSeidelParams& params, Fault fault, SolverKind kind) {
+    if (fault == Fault::none && kind == SolverKind::automatic)
+        return talus::Automatic<Dim, Law<Dim>>(detail::automatic(params))
+            .solve(problem, std::span<V<Dim>>(r));
     if (fault == Fault::none)
         return talus::GaussSeidel<Dim, Law<Dim>>(params).solve(problem, std::span<V<Dim>>(r));
     return FaultySolver<Dim>(params, fault).solve(problem, std::span<V<Dim>>(r));
@@ -166,8 +180,14 @@ talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
 
 template <int Dim>
 talus::SolveReport solve(const DenseProblem<Dim>& problem, std::vector<V<Dim>>& r,
-                         const talus::GaussSeidelParams& params, Fault fault) {
+                         const talus::GaussSeidelParams& params, Fault fault, SolverKind kind) {
     if (fault != Fault::none) return FaultySolver<Dim>(params, fault).solve(problem, std::span(r));
+    if (kind == SolverKind::automatic) {
+        talus::DelassusSparse<Dim> w(problem.contact_count(), problem.blocks());
+        return talus::Automatic<Dim, Law<Dim>>(detail::automatic(params))
+            .solve(w, std::span<const V<Dim>>(problem.free_velocity),
+                   std::span<const Law<Dim>>(problem.laws), std::span<V<Dim>>(r));
+    }
     DenseDelassus<Dim> w(problem.w);
     return talus::GaussSeidel<Dim, Law<Dim>>(params).solve(
         w, std::span<const V<Dim>>(problem.free_velocity), std::span<const Law<Dim>>(problem.laws),
@@ -180,12 +200,12 @@ V<Dim> solve_contact(const Law<Dim>& law, const talus::LocalProblem<Dim>& proble
     return FaultyLaw<Dim>{law, fault}.solve(problem, V<Dim>::Zero());
 }
 
-#define TALUS_VALIDATION_INSTANTIATE(Dim)                                                  \
-    template class World<Dim>;                                                             \
-    template talus::SolveReport solve<Dim>(const Problem<Dim>&, std::vector<V<Dim>>&,      \
-                                           const talus::GaussSeidelParams&, Fault);        \
-    template talus::SolveReport solve<Dim>(const DenseProblem<Dim>&, std::vector<V<Dim>>&, \
-                                           const talus::GaussSeidelParams&, Fault);        \
+#define TALUS_VALIDATION_INSTANTIATE(Dim)                                                       \
+    template class World<Dim>;                                                                  \
+    template talus::SolveReport solve<Dim>(const Problem<Dim>&, std::vector<V<Dim>>&,           \
+                                           const talus::GaussSeidelParams&, Fault, SolverKind); \
+    template talus::SolveReport solve<Dim>(const DenseProblem<Dim>&, std::vector<V<Dim>>&,      \
+                                           const talus::GaussSeidelParams&, Fault, SolverKind); \
     template V<Dim> solve_contact<Dim>(const Law<Dim>&, const talus::LocalProblem<Dim>&, Fault);
 TALUS_VALIDATION_INSTANTIATE(2)
 TALUS_VALIDATION_INSTANTIATE(3)

@@ -26,6 +26,9 @@ using Equilibrium = talus::EquilibriumReport<Dim, Law<Dim>>;
 template <int Dim>
 using Problem = talus::ContactProblem<Dim, Law<Dim>>;
 
+/// Which solver the cases run with; faults are always put into Gauss-Seidel.
+enum class SolverKind { gauss_seidel, automatic };
+
 /// How a world steps. The law given is that of every contact; several go into `laws`.
 template <int Dim>
 struct WorldParams {
@@ -34,6 +37,8 @@ struct WorldParams {
     V<Dim> gravity = -g * up<Dim>();  ///< [m/s^2]
     talus::StepParams step = {.contact_tolerance = touching};
     talus::GaussSeidelParams solver = {.max_sweeps = 2000, .tolerance = 1e-14};
+    /// Set by the trial. Of `solver`, `automatic` takes the tolerance and the sweeps allowed.
+    SolverKind kind = SolverKind::gauss_seidel;
     bool prepares = false;  ///< makes a state for another world: its residuals are not judged
 };
 
@@ -110,10 +115,12 @@ class World {
 /// Solves a contact problem from `r`, into `r`, with the solver of all cases (or a faulty one).
 template <int Dim>
 talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
-                         const talus::GaussSeidelParams& params, Fault fault);
+                         const talus::GaussSeidelParams& params, Fault fault,
+                         SolverKind kind = SolverKind::gauss_seidel);
 template <int Dim>
 talus::SolveReport solve(const DenseProblem<Dim>& problem, std::vector<V<Dim>>& r,
-                         const talus::GaussSeidelParams& params, Fault fault);
+                         const talus::GaussSeidelParams& params, Fault fault,
+                         SolverKind kind = SolverKind::gauss_seidel);
 
 /// Solves one contact: the law's own local solution (or that of a faulty law).
 template <int Dim>

@@ -79,7 +79,8 @@ void run(Trial<Dim>& trial) {
         }
     }
 
-    // The work of the solver.
+    // The work of the solver, a statement on Gauss-Seidel: others take fewer iterations.
+    const bool sweeps_only = trial.solver_kind() == SolverKind::gauss_seidel;
     constexpr double asked = 1e-10;
     Series sweeps{"computed", {}, {}}, predicted{"plain Gauss-Seidel", {}, {}, true};
     std::vector<double> log_n, log_sweeps;
@@ -98,13 +99,15 @@ void run(Trial<Dim>& trial) {
         predicted.y.push_back(expected);
         log_n.push_back(std::log(contacts));
         log_sweeps.push_back(std::log(static_cast<double>(data.report.iterations)));
-        trial.within("sweeps to 1e-10, " + std::to_string(size + 1) + " contacts",
-                     data.report.iterations, expected, 2.0,
-                     "the solver looks at the residual only now and then");
+        if (sweeps_only)
+            trial.within("sweeps to 1e-10, " + std::to_string(size + 1) + " contacts",
+                         data.report.iterations, expected, 2.0,
+                         "the solver looks at the residual only now and then");
     }
     const auto line = gsl::fit_line(log_n, log_sweeps);
-    trial.within("exponent of sweeps over contacts", line.slope, 2.0, 0.2,
-                 "n^2 up to a logarithm: the residual is smaller than the error by n^2");
+    if (sweeps_only)
+        trial.within("exponent of sweeps over contacts", line.slope, 2.0, 0.2,
+                     "n^2 up to a logarithm: the residual is smaller than the error by n^2");
     trial.curves({"work of the solver", "contacts", "sweeps", {sweeps, predicted}});
 }
 

@@ -19,6 +19,7 @@ SECTIONS = {
     "E": "Smooth motion and loss of contact",
     "F": "Lagrangian systems with few degrees of freedom",
     "G": "Granular assemblies",
+    "K": "Cohesion",
 }
 
 VERDICTS = ("passed", "failed", "error", "not run")  # the last one is that of a case without a result

@@ -12,38 +12,39 @@ namespace talus {
 /// A pin: u = 0, any r. The one relation of this folder that can pull; it is no contact.
 /// Where W is singular the impulse of least norm is taken; when b has a part outside the range of W
 /// no impulse can cancel it, and the natural map shows it.
-template <int Dim>
-requires SpaceDimension<Dim>
+template <int Rows>
+requires ContactRows<Rows>
 struct Bilateral {
     /// The block and its spectral decomposition. The pseudo-inverse is applied factor by factor:
     /// multiplied out it would lose the digits that an ill-conditioned W leaves.
     struct PinBlock {
-        Matrix<Dim> W;        ///< [1/kg]
-        Matrix<Dim> axes;     ///< eigenvectors, in columns
-        Vector<Dim> inverse;  ///< of the eigenvalues [kg]; 0 for those that are 0 to rounding
+        Matrix<Rows> W;        ///< [1/kg]
+        Matrix<Rows> axes;     ///< eigenvectors, in columns
+        Vector<Rows> inverse;  ///< of the eigenvalues [kg]; 0 for those that are 0 to rounding
 
-        Vector<Dim> pseudo_solve(const Vector<Dim>& x) const {
+        Vector<Rows> pseudo_solve(const Vector<Rows>& x) const {
             return axes * inverse.cwiseProduct(axes.transpose() * x);
         }
     };
 
-    PinBlock prepare(const Matrix<Dim>& w) const {
-        const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> eigen(w);
+    PinBlock prepare(const Matrix<Rows>& w) const {
+        const Eigen::SelfAdjointEigenSolver<Matrix<Rows>> eigen(w);
         // Eigenvalues are known to a few ulps of the largest: below that, zero is as likely.
         const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
                                 eigen.eigenvalues().cwiseAbs().maxCoeff();
-        PinBlock block{w, eigen.eigenvectors(), Vector<Dim>::Zero()};
-        for (int i = 0; i < Dim; ++i)
+        PinBlock block{w, eigen.eigenvectors(), Vector<Rows>::Zero()};
+        for (int i = 0; i < Rows; ++i)
             if (eigen.eigenvalues()[i] > rounding) block.inverse[i] = 1.0 / eigen.eigenvalues()[i];
         return block;
     }
-    Vector<Dim> improved(const PinBlock& block, const Vector<Dim>& u, const Vector<Dim>& r) const {
+    Vector<Rows> improved(const PinBlock& block, const Vector<Rows>& u,
+                          const Vector<Rows>& r) const {
         return block.pseudo_solve(block.W * r - u);
     }
-    Vector<Dim> solve(const LocalProblem<Dim>& p, const Vector<Dim>&) const {
+    Vector<Rows> solve(const LocalProblem<Rows>& p, const Vector<Rows>&) const {
         return -prepare(p.W).pseudo_solve(p.b);
     }
-    Vector<Dim> natural_map(const Vector<Dim>& u, const Vector<Dim>& r, double rho) const {
+    Vector<Rows> natural_map(const Vector<Rows>& u, const Vector<Rows>& r, double rho) const {
         return r - rho * u;
     }
 };

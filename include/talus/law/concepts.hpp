@@ -10,38 +10,50 @@ namespace talus {
 /// The relation that a contact of gap <= 0 imposes between its relative velocity u [m/s] and its
 /// impulse r [N s], both in the local frame, normal first. Models are of prospective type
 /// [Moreau, (6)(7)]: u_n >= 0 always, and u_n > 0 implies r = 0 (a bilateral constraint, which is
-/// no contact, excepted).
+/// no contact, excepted, and a cohesive one, whose r is then the cohesion's).
 ///
 /// `natural_map(u, r, rho)` is a map whose fixed points in r are the impulses that obey the law
 /// with u, for any rho > 0 [kg]: the law's one measure of error. `solve` answers the one-contact
 /// problem; when that has several solutions (the Painleve range) it returns one of them, the same
 /// for the same input, and when it has none (W r + b cannot meet the law) the r it returns shows it
 /// in the natural map. It never fails otherwise and never returns a NaN.
-template <class L, int Dim>
+template <class L, int Rows>
 concept ContactLaw = std::copyable<L> &&
-    requires(const L& law, const LocalProblem<Dim>& p, const Vector<Dim>& u, const Vector<Dim>& r,
-             double rho) {
-    { law.solve(p, r) } -> std::convertible_to<Vector<Dim>>;             // started from r [N s]
-    { law.natural_map(u, r, rho) } -> std::convertible_to<Vector<Dim>>;  // = r iff obeyed [N s]
+    requires(const L& law, const LocalProblem<Rows>& p, const Vector<Rows>& u,
+             const Vector<Rows>& r, double rho) {
+    { law.solve(p, r) } -> std::convertible_to<Vector<Rows>>;             // started from r [N s]
+    { law.natural_map(u, r, rho) } -> std::convertible_to<Vector<Rows>>;  // = r iff obeyed [N s]
 };
 
 /// Optional extension: a law that does once what depends on W alone. `prepare(W)` returns a value
 /// kept over the sweeps of one solve; `improved(prepared, u, r)` is the impulse that solves the
 /// one-contact problem, given the velocity u = W r + b that the present impulse r leads to. Solvers
 /// take any ContactLaw and use the extension where a law has it (law/prepared.hpp).
-template <class L, int Dim>
-concept PreparableLaw = ContactLaw<L, Dim> &&
-    requires(const L& law, const Matrix<Dim>& w, const Vector<Dim>& u, const Vector<Dim>& r) {
+template <class L, int Rows>
+concept PreparableLaw = ContactLaw<L, Rows> &&
+    requires(const L& law, const Matrix<Rows>& w, const Vector<Rows>& u, const Vector<Rows>& r) {
     { law.prepare(w) } -> std::copyable;
-    { law.improved(law.prepare(w), u, r) } -> std::convertible_to<Vector<Dim>>;  // [N s]
+    { law.improved(law.prepare(w), u, r) } -> std::convertible_to<Vector<Rows>>;  // [N s]
 };
 
 /// A law that looks at a weighted mean of the velocities at begin and end of the step: in terms of
 /// the end velocity it is the law without restitution with `restitution_shift(u_begin)` added to
 /// the velocity, which assembly adds to b once per step.
-template <class L, int Dim>
-concept RestitutionLaw = ContactLaw<L, Dim> && requires(const L& law, const Vector<Dim>& u_begin) {
-    { law.restitution_shift(u_begin) } -> std::convertible_to<Vector<Dim>>;  // [m/s]
+template <class L, int Rows>
+concept RestitutionLaw = ContactLaw<L, Rows> &&
+    requires(const L& law, const Vector<Rows>& u_begin) {
+    { law.restitution_shift(u_begin) } -> std::convertible_to<Vector<Rows>>;  // [m/s]
 };
+
+/// Whether the rows after the tangents are rolling components: laws say so by a member
+/// `rolling_rows`, adaptors pass on what they hold. Such a law belongs to no ContactJacobian, which
+/// has none of these rows.
+template <class L>
+inline constexpr bool has_rolling_rows = [] {
+    if constexpr (requires { L::rolling_rows; })
+        return L::rolling_rows;
+    else
+        return false;
+}();
 
 }  // namespace talus

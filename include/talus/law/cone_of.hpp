@@ -13,13 +13,13 @@ namespace talus {
 /// what solvers need that treat all contacts at once. `friction_cone()` may be empty for a law
 /// chosen at run time.
 template <class L, int Dim>
-concept ConeLaw = ContactLaw<L, Dim> && requires(const L& law) {
+concept ConeLaw = SpaceDimension<Dim> && ContactLaw<L, Dim> && requires(const L& law) {
     { law.friction_cone() } -> std::convertible_to<std::optional<FrictionCone<Dim>>>;
 };
 
 /// The cone of any law; nothing for one that has none.
 template <int Dim, ContactLaw<Dim> Law>
-std::optional<FrictionCone<Dim>> cone_of(const Law& law) {
+requires SpaceDimension<Dim> std::optional<FrictionCone<Dim>> cone_of(const Law& law) {
     if constexpr (ConeLaw<Law, Dim>)
         return law.friction_cone();
     else

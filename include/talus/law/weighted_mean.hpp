@@ -21,30 +21,34 @@ namespace talus {
 /// != e_t the mean is scaled apart in n and t; it still vanishes, opens and has its direction where
 /// the shifted velocity does. Different e_n and e_t can create energy [KaneLevinson1985]: a
 /// property of the law.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Rows, ContactLaw<Rows> Law>
 struct WeightedMean {
+    static constexpr bool rolling_rows = has_rolling_rows<Law>;
+
     Law law;                              ///< the relation obeyed by the mean velocity
     double restitution_normal = 0.0;      ///< e_n [-], in [0, 1]; 0 is soft, 1 bounces back
     double restitution_tangential = 0.0;  ///< e_t [-], in [0, 1]
 
-    Vector<Dim> restitution_shift(const Vector<Dim>& u_begin) const {
-        Vector<Dim> shift = restitution_tangential * u_begin;
+    Vector<Rows> restitution_shift(const Vector<Rows>& u_begin) const {
+        Vector<Rows> shift = restitution_tangential * u_begin;
         shift[0] = restitution_normal * u_begin[0];
         return shift;
     }
-    Prepared<Law, Dim> prepare(const Matrix<Dim>& w) const { return talus::prepare<Dim>(law, w); }
-    Vector<Dim> improved(const Prepared<Law, Dim>& prepared, const Vector<Dim>& u,
-                         const Vector<Dim>& r) const {
-        return talus::improved<Dim>(law, prepared, u, r);
+    Prepared<Law, Rows> prepare(const Matrix<Rows>& w) const {
+        return talus::prepare<Rows>(law, w);
     }
-    Vector<Dim> solve(const LocalProblem<Dim>& p, const Vector<Dim>& r) const {
+    Vector<Rows> improved(const Prepared<Law, Rows>& prepared, const Vector<Rows>& u,
+                          const Vector<Rows>& r) const {
+        return talus::improved<Rows>(law, prepared, u, r);
+    }
+    Vector<Rows> solve(const LocalProblem<Rows>& p, const Vector<Rows>& r) const {
         return law.solve(p, r);
     }
-    Vector<Dim> natural_map(const Vector<Dim>& u, const Vector<Dim>& r, double rho) const {
+    Vector<Rows> natural_map(const Vector<Rows>& u, const Vector<Rows>& r, double rho) const {
         return law.natural_map(u, r, rho);
     }
     /// That of `law`: the restitution shift is in the free velocity.
-    std::optional<FrictionCone<Dim>> friction_cone() const { return cone_of<Dim>(law); }
+    auto friction_cone() const requires SpaceDimension<Rows> { return cone_of<Rows>(law); }
     /// Throws input_error naming `item` unless both restitutions lie in [0, 1] and `law` is valid.
     void require_valid(std::string_view item) const {
         const std::string name(item);

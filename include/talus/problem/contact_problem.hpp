@@ -53,7 +53,7 @@ struct InverseMass {
 /// The whole input of a contact solver:  u = W r + free_velocity,  W = H^T M^-1 H,  and for every
 /// contact its law between u and r. Knows nothing of shapes, time or step size.
 template <int Dim, ContactLaw<Dim> Law>
-struct ContactProblem {
+requires(SpaceDimension<Dim> && !has_rolling_rows<Law>) struct ContactProblem {
     InverseMass<Dim> inverse_mass;
     ContactJacobian<Dim> jacobian;
     /// u_free: the relative velocity that the step would end with if all impulses were zero, the

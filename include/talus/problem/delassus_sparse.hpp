@@ -17,33 +17,36 @@
 namespace talus {
 
 /// One block of W, for building a DelassusSparse from blocks.
-template <int Dim>
+template <int Rows>
 struct DelassusBlock {
     std::size_t row = 0;
     std::size_t column = 0;
-    Matrix<Dim> value = Matrix<Dim>::Zero();  ///< W_row,column [1/kg]
+    Matrix<Rows> value = Matrix<Rows>::Zero();  ///< W_row,column [1/kg]
 };
 
 /// W = H^T M^-1 H assembled: blocks W_ij in compressed rows, columns ascending, for contacts that
-/// share a body that moves. Storage: Dim^2 numbers per pair of neighbours (some ten per contact in
+/// share a body that moves. Storage: Rows^2 numbers per pair of neighbours (some ten per contact in
 /// a packing, but the square of its contacts for a large body).
-template <int Dim>
-requires SpaceDimension<Dim>
+template <int Rows>
+requires ContactRows<Rows>
 class DelassusSparse {
   public:
     DelassusSparse() = default;
-    DelassusSparse(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
+    /// Of rigid bodies, for the rows of space.
+    template <int Dim>
+    requires(Dim == Rows)
+        DelassusSparse(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
         assemble(jacobian, inverse_mass);
     }
     /// From any blocks: those of equal place are summed, every row has a diagonal block (zero if
     /// none is given). The caller sees to symmetry. Throws input_error on an index not below `n`.
-    DelassusSparse(std::size_t n, std::vector<DelassusBlock<Dim>> blocks) {
+    DelassusSparse(std::size_t n, std::vector<DelassusBlock<Rows>> blocks) {
         for (const auto& block : blocks)
             if (std::max(block.row, block.column) >= n)
                 throw input_error("index of a Delassus block is " +
                                   std::to_string(std::max(block.row, block.column)) +
                                   ", but must be below " + std::to_string(n));
-        for (std::size_t i = 0; i < n; ++i) blocks.push_back({i, i, Matrix<Dim>::Zero()});
+        for (std::size_t i = 0; i < n; ++i) blocks.push_back({i, i, Matrix<Rows>::Zero()});
         compress(n, blocks);
     }
 
@@ -53,37 +56,38 @@ class DelassusSparse {
     std::span<const std::size_t> columns(std::size_t i) const {
         return std::span(column_).subspan(row_begin_[i], row_begin_[i + 1] - row_begin_[i]);
     }
-    std::span<const Matrix<Dim>> blocks(std::size_t i) const {
+    std::span<const Matrix<Rows>> blocks(std::size_t i) const {
         return std::span(value_).subspan(row_begin_[i], row_begin_[i + 1] - row_begin_[i]);
     }
-    Matrix<Dim> diagonal_block(std::size_t i) const { return value_[diagonal_[i]]; }
+    Matrix<Rows> diagonal_block(std::size_t i) const { return value_[diagonal_[i]]; }
 
     /// u = W r.
-    void multiply(std::span<const Vector<Dim>> r, std::span<Vector<Dim>> u) const {
+    void multiply(std::span<const Vector<Rows>> r, std::span<Vector<Rows>> u) const {
         TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
         for (std::size_t i = 0; i < contact_count(); ++i) u[i] = row_times(i, r);
     }
     /// Takes the impulses in.
-    void start(std::span<const Vector<Dim>> r) {
+    void start(std::span<const Vector<Rows>> r) {
         TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
         impulse_.assign(r.begin(), r.end());
     }
     /// Row i of W r for the present impulses [m/s]. Cost: the neighbours of contact i.
-    Vector<Dim> velocity(std::size_t i) const {
-        return row_times(i, std::span<const Vector<Dim>>(impulse_));
+    Vector<Rows> velocity(std::size_t i) const {
+        return row_times(i, std::span<const Vector<Rows>>(impulse_));
     }
     /// r_i += dr.
-    void add(std::size_t i, const Vector<Dim>& dr) { impulse_[i] += dr; }
+    void add(std::size_t i, const Vector<Rows>& dr) { impulse_[i] += dr; }
 
   private:
-    Vector<Dim> row_times(std::size_t i, std::span<const Vector<Dim>> r) const {
-        Vector<Dim> u = Vector<Dim>::Zero();
+    Vector<Rows> row_times(std::size_t i, std::span<const Vector<Rows>> r) const {
+        Vector<Rows> u = Vector<Rows>::Zero();
         for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
             u += value_[k] * r[column_[k]];
         return u;
     }
 
     /// H_ik^T restricted to body k: velocity of the contact per twist of the body.
+    template <int Dim>
     static Eigen::Matrix<double, Dim, twist_dof<Dim>> velocity_map(
         const ContactJacobian<Dim>& jacobian, std::size_t contact, BodyIndex body) {
         Eigen::Matrix<double, Dim, twist_dof<Dim>> map =
@@ -98,6 +102,7 @@ class DelassusSparse {
         return map;
     }
 
+    template <int Dim>
     void assemble(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
         std::vector<std::vector<std::size_t>> contacts_of(inverse_mass.body_count());
         for (std::size_t i = 0; i < jacobian.contact_count(); ++i) {
@@ -127,7 +132,7 @@ class DelassusSparse {
     }
 
     /// Sorts blocks into rows and sums those of equal place, in the order they came.
-    void compress(std::size_t n, const std::vector<DelassusBlock<Dim>>& blocks) {
+    void compress(std::size_t n, const std::vector<DelassusBlock<Rows>>& blocks) {
         // The order is sorted, not the blocks: the buffer of a stable sort would not keep the
         // alignment that vectors of the processor's full width ask for.
         std::vector<std::size_t> order(blocks.size());
@@ -156,10 +161,11 @@ class DelassusSparse {
 
     std::vector<std::size_t> row_begin_;
     std::vector<std::size_t> column_;
-    std::vector<Matrix<Dim>> value_;
+    std::vector<Matrix<Rows>> value_;
     std::vector<std::size_t> diagonal_;  ///< place of W_ii in value_
-    std::vector<Vector<Dim>> impulse_;
+    std::vector<Vector<Rows>> impulse_;
 };
 static_assert(SweepableDelassus<DelassusSparse<2>, 2> && SweepableDelassus<DelassusSparse<3>, 3>);
+static_assert(SweepableDelassus<DelassusSparse<5>, 5>);
 
 }  // namespace talus

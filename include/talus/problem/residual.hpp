@@ -29,7 +29,7 @@ struct Residual {
 ///   eta = || D^-1/2 (r - f) || / max( || D^-1/2 r ||, || D^1/2 u_free || ),   D = diag(rho_c),
 ///
 /// where f_c = natural_map(u_c, r_c, rho_c) of the contact's own exact law and rho_c [kg] is the
-/// effective mass of the contact, Dim / trace(W_cc). Norms are Euclidean over all contacts.
+/// effective mass of the contact, Rows / trace(W_cc). Norms are Euclidean over all contacts.
 ///
 /// Why so. (1) rho_c is the step that makes r_c - rho_c u_c a sum of comparable terms, so that f is
 /// neither blind to r nor to u. (2) D^-1/2 r and D^1/2 u both are square roots of energies, so that
@@ -40,26 +40,28 @@ struct Residual {
 /// at rest and a fast one without load both have one.
 ///
 /// Conventions. 0/0 is 0. If the scale is 0 and the error is not (a law that attracts), eta is 1.
-/// A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Dim / trace of
+/// A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Rows / trace of
 /// the mean block (1 kg if all are 0), so that a velocity that no impulse can mend stays in eta.
+/// Rows of different units (with rolling friction) need a length that makes them one, see
+/// RollingCoulomb: sums over the rows of a contact, as here, are of one unit or of none.
 /// Whatever is not finite in r, u, f or u_free makes eta not finite.
-template <int Dim>
+template <int Rows>
 class ResidualMeasure {
   public:
     /// Takes the effective masses from W. Allocates only for a larger problem than any before.
-    template <DelassusOperator<Dim> W>
+    template <DelassusOperator<Rows> W>
     void prepare(const W& w) {
         rho_.resize(w.contact_count());
         double sum = 0.0;
         std::size_t positive = 0;
         for (std::size_t i = 0; i < rho_.size(); ++i) {
             const double trace = w.diagonal_block(i).trace();
-            rho_[i] = Dim / trace;
+            rho_[i] = Rows / trace;
             if (trace == 0.0) continue;
             sum += trace;
             ++positive;
         }
-        const double spare = positive > 0 ? Dim * static_cast<double>(positive) / sum : 1.0;
+        const double spare = positive > 0 ? Rows * static_cast<double>(positive) / sum : 1.0;
         for (double& rho : rho_)
             if (std::isinf(rho)) rho = spare;
     }
@@ -68,7 +70,8 @@ class ResidualMeasure {
     double effective_mass(std::size_t contact) const { return rho_[contact]; }
 
     /// max( || D^-1/2 r ||, || D^1/2 u_free || ) [sqrt(J)].
-    double scale(std::span<const Vector<Dim>> free_velocity, std::span<const Vector<Dim>> r) const {
+    double scale(std::span<const Vector<Rows>> free_velocity,
+                 std::span<const Vector<Rows>> r) const {
         double impulses = 0.0, velocities = 0.0;
         for (std::size_t i = 0; i < rho_.size(); ++i) {
             impulses += r[i].squaredNorm() / rho_[i];
@@ -79,15 +82,15 @@ class ResidualMeasure {
     }
 
     /// The measure at r, where `velocity(i)` gives row i of W r.
-    template <ContactLaw<Dim> Law, class Velocity>
-    Residual evaluate(std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
-                      std::span<const Vector<Dim>> r, Velocity&& velocity) const {
+    template <ContactLaw<Rows> Law, class Velocity>
+    Residual evaluate(std::span<const Vector<Rows>> free_velocity, std::span<const Law> laws,
+                      std::span<const Vector<Rows>> r, Velocity&& velocity) const {
         TALUS_CHECK(r.size() == rho_.size(), "one impulse per contact");
         Residual result;
         double sum = 0.0, worst = 0.0;
         for (std::size_t i = 0; i < rho_.size(); ++i) {
-            const Vector<Dim> u = velocity(i) + free_velocity[i];
-            const Vector<Dim> off = r[i] - laws[i].natural_map(u, r[i], rho_[i]);
+            const Vector<Rows> u = velocity(i) + free_velocity[i];
+            const Vector<Rows> off = r[i] - laws[i].natural_map(u, r[i], rho_[i]);
             // A law may map a velocity that is not finite to a finite impulse (max(0, -inf)).
             const double share = off.squaredNorm() / rho_[i] + 0.0 * u.sum();
             sum += share;

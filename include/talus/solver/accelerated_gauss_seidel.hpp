@@ -107,7 +107,7 @@ class AcceleratedGaussSeidel {
             change = std::sqrt(change);
             const bool hopeful = !(change * ratio > params.tolerance);
             if (k == params.max_iterations || k == next_look || hopeful) {
-                if (verify(task, k) || change == 0.0) return;
+                if (verify(task, k) || change == 0.0 || k == params.max_iterations) return;
                 ratio = report_.residual / change;
                 if (k == next_look) next_look += 1 + next_look / 2;
             }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/law/signorini.hpp>
 #include <talus/solver/accelerated_gauss_seidel.hpp>
 #include <talus/solver/gauss_seidel.hpp>
 #include <talus/solver/interior_point.hpp>
@@ -10,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -32,8 +34,8 @@ struct AutomaticParams {
 /// The solver to use when nothing is known of the problem. Engines take turns on the same impulses:
 ///
 ///   gauss_seidel     a few sweeps: enough for small and for well warm-started problems;
-///   anderson         accelerated double sweeps, as long as the digits they gain per sweep promise
-///                    an end before that of a factorising engine;
+///   anderson, nesterov  accelerated double sweeps, by whichever gains more, as long as that
+///                    promises an end before that of a factorising engine;
 ///   newton_polish    once the residual is small, where a factor is cheap beside the sweeps to
 ///   come; interior_point   for what sweeps do not finish, followed by newton_polish again;
 ///   anderson         for the rest of the sweeps, if there is still something to do.
@@ -100,37 +102,63 @@ class Automatic {
         require_non_negative("max_factorizations", params.max_factorizations);
         report_ = {};
         sweeps_left_ = params.max_sweeps;
+        passes_ = 0;
+        constexpr double untried = 1e9;
+        speed_ = {2.0 * untried, untried};
         constexpr int first_sweeps = 6, first_passes = 15;
         sweep(w, free_velocity, laws, r, first_sweeps);
         if (finished()) return report_;
         if (accelerate(w, free_velocity, laws, r, first_passes)) return report_;
 
-        const bool factors = params.max_factorizations > 0 && take_cones(laws);
-        if (factors) {
-            measure_.prepare(w);
-            system_.assign(source(), free_velocity, std::move(cones_), measure_);
-            const double factor = system_.factorization_cost();
-            // Double sweeps that cost as much as an interior-point solve, about.
-            const double usual_factorizations = 20.0, pass = 2.6 * visits;
-            const double worth = usual_factorizations * factor / pass;
-            while (passes_to_go() < 0.5 * worth)
-                if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
-            int left = params.max_factorizations;
-            scaled_.resize(0);
-            system_.to_scaled(r, scaled_);
-            constexpr double settled = 1e-2;
-            double residual = report_.residual;
-            if (residual < settled)
-                residual = factorize("newton_polish", polish_, 8, residual, left);
-            if (residual > params.tolerance)
-                residual = factorize("interior_point", interior_, 80, residual, left);
-            if (residual > params.tolerance)
-                residual = factorize("newton_polish", polish_, 30, residual, left);
-            if (take_over(w, free_velocity, laws, r)) return report_;
+        if (params.max_factorizations == 0 || !take_cones(laws)) {
+            while (accelerate_on(w, free_velocity, laws, r, 2 * last_passes_)) {
+            }
+            return report_;
         }
-        while (sweeps_left_ > 1)
+        measure_.prepare(w);
+        system_.assign(source(), free_velocity, std::move(cones_), measure_);
+        // Double sweeps that cost as much as an interior-point solve, about.
+        constexpr double usual_factorizations = 15.0, cost_of_pass = 2.6;
+        const double worth =
+            usual_factorizations * system_.factorization_cost() / (cost_of_pass * visits);
+        // Sweeps go on while they promise an end soon, and at least for a quarter of that cost.
+        while (passes_ < 0.25 * worth || passes_to_go() < 0.5 * worth)
             if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
+        factorizations_left_ = params.max_factorizations;
+        for (const double margin : {0.1, 1.0, 0.01}) {
+            if (factorizations_left_ == 0) break;
+            if (factorize_all(w, free_velocity, laws, r, margin)) return report_;
+            if (nothing_separates(w, free_velocity)) {
+                report_.status = SolveStatus::no_solution;
+                return report_;
+            }
+            constexpr double most = 1e6;
+            if (!accelerate_on(w, free_velocity, laws, r,
+                               static_cast<int>(std::clamp(worth, 20.0, most))))
+                return report_;
+        }
+        while (accelerate_on(w, free_velocity, laws, r, 2 * last_passes_)) {
+            constexpr double clear = 0.03;  // of the residual where statuses were not settled yet
+            if (factorizations_left_ == 0 || report_.residual > clear * polished_at_) continue;
+            start_factors(r);
+            if (polish(8) && take_over(w, free_velocity, laws, r)) return report_;
+        }
         return report_;
+    }
+
+    /// Polish, interior point, polish. True if the solve is over.
+    template <class W>
+    bool factorize_all(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
+                       std::span<Vector<Dim>> r, double margin) {
+        start_factors(r);
+        constexpr double settled = 1e-2;
+        if (report_.residual < settled) polish(8);
+        if (factor_residual_ > params.tolerance) {
+            interior_.params.margin = margin;
+            factorize("interior_point", interior_, 60);
+            if (factor_residual_ > params.tolerance) polish(20);
+        }
+        return take_over(w, free_velocity, laws, r);
     }
 
     bool finished() const {
@@ -163,18 +191,33 @@ class Automatic {
                     std::span<Vector<Dim>> r, int passes) {
         last_passes_ = std::min(passes, sweeps_left_ / 2);
         if (last_passes_ == 0) return true;
-        before_ = report_.residual;
-        accelerated_.params = {.max_iterations = last_passes_, .tolerance = params.tolerance};
-        note("anderson", accelerated_.solve(w, free_velocity, laws, r));
-        sweeps_left_ -= 2 * accelerated_.report().iterations;
+        // The accelerator that gained more per pass when it was last used; both are tried first.
+        const std::size_t momentum = speed_[1] > speed_[0];
+        const double before = report_.residual;
+        accelerated_.params = {
+            .max_iterations = last_passes_,
+            .tolerance = params.tolerance,
+            .acceleration = momentum ? Acceleration::nesterov : Acceleration::anderson};
+        note(momentum ? "nesterov" : "anderson", accelerated_.solve(w, free_velocity, laws, r));
+        const int done = accelerated_.report().iterations;
+        speed_[momentum] = done > 0 ? std::log(before / report_.residual) / done : 0.0;
+        sweeps_left_ -= 2 * done;
+        passes_ += done;
         return finished();
+    }
+    /// The same, the other way round.
+    template <class W>
+    bool accelerate_on(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
+                       std::span<Vector<Dim>> r, int passes) {
+        constexpr int longest = 4000;
+        return !accelerate(w, free_velocity, laws, r, std::min(passes, longest));
     }
     /// Double sweeps that the tolerance will take at the rate of the last ones.
     double passes_to_go() const {
-        const double gained = std::log(before_ / report_.residual);
         const double wanted = std::log(report_.residual / std::max(params.tolerance, 1e-16));
+        const double speed = std::max(speed_[0], speed_[1]);
         constexpr double never = 1e9;
-        return gained > 0.0 ? wanted / gained * last_passes_ : never;
+        return speed > 0.0 ? wanted / speed : never;
     }
 
     bool take_cones(std::span<const Law> laws) {
@@ -187,22 +230,65 @@ class Automatic {
         return true;
     }
 
+    void start_factors(std::span<const Vector<Dim>> r) {
+        system_.to_scaled(r, scaled_);
+        factor_residual_ = report_.residual;
+    }
+    bool polish(int at_most) {
+        polished_at_ = factor_residual_;
+        factorize("newton_polish", polish_, at_most);
+        return factor_residual_ < polished_at_;
+    }
     template <class Engine>
-    double factorize(std::string_view name, Engine& engine, int at_most, double residual,
-                     int& left) {
+    void factorize(std::string_view name, Engine& engine, int at_most) {
         engine.params.tolerance = params.tolerance;
-        engine.params.max_iterations = std::min(at_most, left);
-        if (left == 0) return residual;
-        residual = engine.improve(system_, scaled_, residual);
-        left -= engine.report().iterations;
-        const int before = report_.iterations;
+        engine.params.max_iterations = std::min(at_most, factorizations_left_);
+        if (engine.params.max_iterations == 0) return;
+        factor_residual_ = engine.improve(system_, scaled_, factor_residual_);
+        factorizations_left_ -= engine.report().iterations;
         for (const ResidualSample& s : engine.report().history)
-            report_.history.push_back({before + s.iteration, s.residual});
+            report_.history.push_back({report_.iterations + s.iteration, s.residual});
         report_.iterations += engine.report().iterations;
-        report_.stages.push_back({name, engine.report().iterations, residual});
-        return residual;
+        report_.stages.push_back({name, engine.report().iterations, factor_residual_});
     }
 
+    /// Whether normal impulses l >= 0 were found that move nothing, W (l n) = 0, and yet meet a
+    /// free velocity with l . u_free < 0. Then sum l_c u_n,c = sum l_c u_free,c < 0 whatever the
+    /// impulses are: some contact must close, and no solution exists (Farkas' lemma). W (l n)
+    /// vanishes to rounding: a solution, if any, has impulses 1e9 times those that would stop
+    /// u_free. Where nothing can separate the contacts, sweeps without friction run away along such
+    /// an l.
+    template <class W>
+    bool nothing_separates(W& w, std::span<const Vector<Dim>> free_velocity) {
+        const std::size_t n = w.contact_count();
+        smooth_.assign(n, Signorini<Dim>{});
+        ray_.assign(n, Vector<Dim>::Zero());
+        constexpr int sweeps = 32;
+        frictionless_.params = {.max_sweeps = sweeps, .tolerance = 0.0};
+        frictionless_.solve(w, free_velocity, std::span<const Signorini<Dim>>(smooth_), ray_);
+        velocity_ = ray_;
+        frictionless_.solve(w, free_velocity, std::span<const Signorini<Dim>>(smooth_), ray_);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double growth = ray_[i][0] - velocity_[i][0];
+            ray_[i] = std::max(growth, 0.0) * Vector<Dim>::Unit(0);
+            // Between obstacles every impulse moves nothing.
+            if (w.diagonal_block(i).isZero(0.0) && free_velocity[i][0] < 0.0) return true;
+        }
+        Eigen::VectorXd l, u;
+        system_.to_scaled(ray_, l);
+        system_.multiply(l, u);
+        constexpr double rounding = 1e-9;
+        const double size = l.norm();
+        return size > 0.0 && u.norm() <= rounding * size &&
+               l.dot(system_.free_velocity()) <
+                   -1e-6 * size * system_.free_velocity().template lpNorm<Eigen::Infinity>();
+    }
+
+    /// Impulses that run away make any residual small: large ones must show that they may be.
+    bool runs_away() const {
+        constexpr double suspicious = 1e5;
+        return scaled_.norm() > suspicious * system_.free_velocity().norm();
+    }
     /// Takes the impulses of the factorising engines if they are better by the one measure.
     template <class W>
     bool take_over(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
@@ -216,16 +302,25 @@ class Automatic {
                 .template evaluate<Law>(free_velocity, laws, r,
                                         [&](std::size_t i) { return velocity_[i]; })
                 .relative;
-        if (residual <= report_.residual)
-            report_.residual = residual;
-        else
+        if (!(residual <= report_.residual)) {
             std::copy(kept_.begin(), kept_.end(), r.begin());
+        } else if (residual <= params.tolerance && runs_away() &&
+                   nothing_separates(w, free_velocity)) {
+            std::copy(kept_.begin(), kept_.end(), r.begin());
+            report_.history.push_back({report_.iterations, report_.residual});
+            report_.status = SolveStatus::no_solution;
+            return true;
+        } else {
+            report_.residual = residual;
+        }
         report_.history.push_back({report_.iterations, report_.residual});
-        if (report_.residual <= params.tolerance) report_.status = SolveStatus::converged;
-        return finished();
+        if (report_.residual > params.tolerance) return false;
+        report_.status = SolveStatus::converged;
+        return true;
     }
 
     GaussSeidel<Dim, Law> gauss_seidel_;
+    GaussSeidel<Dim, Signorini<Dim>> frictionless_;
     AcceleratedGaussSeidel<Dim, Law> accelerated_;
     InteriorPoint<Dim, Law> interior_;
     NewtonPolish<Dim, Law> polish_;
@@ -234,11 +329,15 @@ class Automatic {
     System system_;
     ResidualMeasure<Dim> measure_;
     std::vector<FrictionCone<Dim>> cones_;
-    std::vector<Vector<Dim>> kept_, velocity_;
+    std::vector<Vector<Dim>> kept_, velocity_, ray_;
+    std::vector<Signorini<Dim>> smooth_;
     Eigen::VectorXd scaled_;
     SolveReport report_;
     int sweeps_left_ = 0, last_passes_ = 0;
-    double before_ = 0.0;
+    int factorizations_left_ = 0;
+    int passes_ = 0;
+    std::array<double, 2> speed_{};  ///< digits (natural) per pass: anderson, nesterov
+    double factor_residual_ = 0.0, polished_at_ = 0.0;
 };
 
 }  // namespace talus

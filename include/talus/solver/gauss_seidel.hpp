@@ -19,6 +19,21 @@
 
 namespace talus {
 
+namespace detail {
+
+/// The operators of rigid bodies that a solver keeps between solves: none for rows that are not
+/// those of space.
+template <int Rows>
+struct RigidBodyOperators {};
+template <int Rows>
+requires SpaceDimension<Rows>
+struct RigidBodyOperators<Rows> {
+    DelassusProduct<Rows> tensor;
+    DelassusProduct<Rows, double> scalar;
+};
+
+}  // namespace detail
+
 struct GaussSeidelParams {
     /// Sweeps allowed [-], not negative. Piles need some ten per layer of grains for 1e-3.
     int max_sweeps = 1000;
@@ -50,6 +65,8 @@ struct GaussSeidelParams {
 /// from the impulses, so that rounding errors do not pile up and the verdict is on what is
 /// returned.
 ///
+/// `Dim` is the rows per contact; problems of rigid bodies have those of space.
+///
 /// One object may be used again for any problems; it allocates when a problem is larger than all
 /// before. The same input gives the same bits, whether observed or not.
 template <int Dim, ContactLaw<Dim> Law>
@@ -67,15 +84,16 @@ class GaussSeidel {
     /// after each sweep and may return bool, false to stop; calling it costs one evaluation of the
     /// residual per sweep, talus::Ignore costs nothing. Throws input_error on parameters out of
     /// range or arrays of different lengths.
-    template <class OnSweep = Ignore>
-    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r,
-                             OnSweep&& on_sweep = {}) {
+    template <int Space, class OnSweep = Ignore>
+    requires(Space == Dim) const SolveReport& solve(const ContactProblem<Space, Law>& problem,
+                                                    std::span<Vector<Dim>> r,
+                                                    OnSweep&& on_sweep = {}) {
         if (has_scalar_inertia(problem.inverse_mass)) {
-            scalar_product_.assign(problem.jacobian, problem.inverse_mass);
-            return solve(scalar_product_, problem.free_velocity, problem.laws, r, on_sweep);
+            product_.scalar.assign(problem.jacobian, problem.inverse_mass);
+            return solve(product_.scalar, problem.free_velocity, problem.laws, r, on_sweep);
         }
-        product_.assign(problem.jacobian, problem.inverse_mass);
-        return solve(product_, problem.free_velocity, problem.laws, r, on_sweep);
+        product_.tensor.assign(problem.jacobian, problem.inverse_mass);
+        return solve(product_.tensor, problem.free_velocity, problem.laws, r, on_sweep);
     }
 
     /// The same with an operator of the caller's: assembled, or from a system that is not made of
@@ -162,8 +180,7 @@ class GaussSeidel {
         return report_.status != SolveStatus::iteration_limit;
     }
 
-    DelassusProduct<Dim> product_;
-    DelassusProduct<Dim, double> scalar_product_;
+    detail::RigidBodyOperators<Dim> product_;
     SweepKernel<Dim, Law> kernel_;
     std::vector<Vector<Dim>> last_finite_;
     SweepSequence sequence_;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <talus/law/any_law.hpp>
+#include <talus/law/bilateral.hpp>
+#include <talus/solver/automatic.hpp>
+
+#include "common/dimensions.hpp"
+#include "common/solver_tester.hpp"
+
+namespace {
+
+template <int Dim>
+using Law = talus::Coulomb<Dim>;
+
+/// A ball between two obstacles that come towards each other with speed 1 each.
+template <int Dim>
+talus::ContactProblem<Dim, Law<Dim>> squeezed_ball() {
+    auto p = stack_of_particles<Dim>({1.0, 1.0}, Law<Dim>{.mu = 0.5});
+    // Bodies 0 and 1 of the stack and an obstacle below: make the upper body an obstacle too.
+    p.inverse_mass.linear[1] = 0.0;
+    for (auto& u : p.free_velocity) u = -talus::Vector<Dim>::Unit(0);
+    return p;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(automatic)
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(it_is_a_contact_solver, D, dimensions) {
+    test_solver<D::value>([]<class L>(double tolerance, int max_sweeps) {
+        return talus::Automatic<D::value, L>({.tolerance = tolerance, .max_sweeps = max_sweeps});
+    });
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(hyperstatic_problems_are_solved_to_rounding, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(80);
+    for (int k = 0; k < 40; ++k) {
+        BOOST_TEST_INFO_SCOPE("problem " << k);
+        auto p = RandomProblem<dim, Law<dim>>{.bodies = 6, .contacts = 20, .arm = 0.1}.make(random,
+                                                                                            {0.5});
+        move_bodies_only<dim>(p, random);
+        std::vector<talus::Vector<dim>> r(20, talus::Vector<dim>::Zero());
+        talus::Automatic<dim, Law<dim>> solver({.tolerance = 1e-10});
+        const auto& report = solver.solve(p, r);
+        BOOST_TEST((report.status == talus::SolveStatus::converged));
+        BOOST_TEST(talus::residual(p, std::span<const talus::Vector<dim>>(r)).relative <= 1e-10);
+        BOOST_TEST(!report.stages.empty());
+        int iterations = 0;
+        for (const auto& stage : report.stages) iterations += stage.iterations;
+        BOOST_TEST(iterations == report.iterations);
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(blocks_and_bodies_lead_to_the_same_velocities, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(81);
+    for (int k = 0; k < 10; ++k) {
+        auto p = RandomProblem<dim, Law<dim>>{.bodies = 8, .contacts = 6, .arm = 0.1}.make(random,
+                                                                                           {0.3});
+        move_bodies_only<dim>(p, random);
+        std::vector<talus::Vector<dim>> by_bodies(6, talus::Vector<dim>::Zero());
+        auto by_blocks = by_bodies;
+        talus::Automatic<dim, Law<dim>> solver({.tolerance = 1e-13});
+        solver.solve(p, by_bodies);
+        talus::AssembledProblem<dim, Law<dim>> assembled{
+            {p.jacobian, p.inverse_mass}, p.free_velocity, p.laws};
+        solver.solve(assembled, by_blocks);
+        BOOST_TEST(distance<dim>(end_velocities(p, by_bodies), end_velocities(p, by_blocks)) <
+                   1e-9);
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(bodies_squeezed_by_obstacles_have_no_solution, D, dimensions) {
+    constexpr int dim = D::value;
+    auto p = squeezed_ball<dim>();
+    std::vector<talus::Vector<dim>> r(2, talus::Vector<dim>::Zero());
+    talus::Automatic<dim, Law<dim>> solver;
+    BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::no_solution));
+    for (const auto& x : r) BOOST_TEST(x.allFinite());
+    // One obstacle that gives way as fast as the other comes: the ball moves with them.
+    p.free_velocity[1] *= -1.0;
+    BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::converged));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(contacts_between_obstacles_cannot_be_pushed_apart, D, dimensions) {
+    constexpr int dim = D::value;
+    auto p = stack_of_particles<dim>({1.0}, Law<dim>{.mu = 0.5});
+    p.inverse_mass.linear[0] = 0.0;
+    std::vector<talus::Vector<dim>> r(1, talus::Vector<dim>::Zero());
+    talus::Automatic<dim, Law<dim>> solver;
+    p.free_velocity[0] = -talus::Vector<dim>::Unit(0);
+    BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::no_solution));
+    p.free_velocity[0] = talus::Vector<dim>::Unit(0);
+    BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::converged));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(laws_without_a_cone_are_left_to_sweeps, D, dimensions) {
+    constexpr int dim = D::value;
+    using Any = talus::AnyLaw<dim, talus::Coulomb<dim>, talus::Bilateral<dim>>;
+    RandomBlocks random(82);
+    auto p = RandomProblem<dim, Any>{.bodies = 8, .contacts = 6, .arm = 0.1}.make(
+        random, Any{talus::Coulomb<dim>{0.3}});
+    p.laws[2].law = talus::Bilateral<dim>{};
+    move_bodies_only<dim>(p, random);
+    std::vector<talus::Vector<dim>> r(6, talus::Vector<dim>::Zero());
+    talus::Automatic<dim, Any> solver({.tolerance = 1e-10});
+    const auto& report = solver.solve(p, r);
+    BOOST_TEST((report.status == talus::SolveStatus::converged));
+    for (const auto& stage : report.stages)
+        BOOST_TEST((stage.engine != "interior_point" && stage.engine != "newton_polish"));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(same_input_same_bits, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(83);
+    auto p =
+        RandomProblem<dim, Law<dim>>{.bodies = 6, .contacts = 20, .arm = 0.1}.make(random, {0.5});
+    move_bodies_only<dim>(p, random);
+    std::vector<talus::Vector<dim>> once(20, talus::Vector<dim>::Zero());
+    auto again = once, fresh = once;
+    talus::Automatic<dim, Law<dim>> solver({.tolerance = 1e-10});
+    solver.solve(p, once);
+    solver.solve(p, again);
+    talus::Automatic<dim, Law<dim>>({.tolerance = 1e-10}).solve(p, fresh);
+    BOOST_TEST(distance<dim>(once, again) == 0.0);
+    BOOST_TEST(distance<dim>(once, fresh) == 0.0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
