@@ -101,6 +101,25 @@ class Automatic {
         require_non_negative("max_sweeps", params.max_sweeps);
         require_non_negative("max_factorizations", params.max_factorizations);
         report_ = {};
+        let_engines_work(w, free_velocity, laws, r, visits, source);
+        // An engine that gained nothing leaves samples of what it tried at the end.
+        if (report_.history.back().residual != report_.residual)
+            report_.history.push_back({report_.iterations, report_.residual});
+        if (report_.status != SolveStatus::converged) return report_;
+        measure_.prepare(w);
+        if (run_away(free_velocity, r) && take_cones(laws)) {
+            for (FrictionCone<Dim>& cone : cones_) cone.mu = 0.0;
+            system_.assign(source(), free_velocity, std::move(cones_), measure_);
+            if (nothing_separates(w, free_velocity) || newton_runs_away())
+                report_.status = SolveStatus::no_solution;
+        }
+        return report_;
+    }
+
+    template <class W, class Source>
+    const SolveReport& let_engines_work(W& w, std::span<const Vector<Dim>> free_velocity,
+                                        std::span<const Law> laws, std::span<Vector<Dim>> r,
+                                        double visits, Source&& source) {
         sweeps_left_ = params.max_sweeps;
         passes_ = 0;
         constexpr double untried = 1e9;
@@ -280,8 +299,13 @@ class Automatic {
             // Between obstacles every impulse moves nothing.
             if (w.diagonal_block(i).isZero(0.0) && free_velocity[i][0] < 0.0) return true;
         }
-        Eigen::VectorXd l, u;
+        Eigen::VectorXd l;
         system_.to_scaled(ray_, l);
+        return proves_overlap(l);
+    }
+    /// The certificate itself, for scaled impulses without tangential parts.
+    bool proves_overlap(const Eigen::VectorXd& l) const {
+        Eigen::VectorXd u;
         system_.multiply(l, u);
         constexpr double rounding = 1e-9;
         const double size = l.norm();
@@ -289,11 +313,27 @@ class Automatic {
                l.dot(system_.free_velocity()) <
                    -1e-6 * size * system_.free_velocity().template lpNorm<Eigen::Infinity>();
     }
+    /// The same certificate from Newton steps without friction, as `system_` must be: where they
+    /// lead out of all bounds they do so along an l, also where sweeps take too long to find it.
+    bool newton_runs_away() {
+        const Eigen::VectorXd& q = system_.free_velocity();
+        Eigen::VectorXd l = Eigen::VectorXd::Zero(q.size());
+        constexpr int steps = 30;
+        polish_.params = {.max_iterations = steps, .tolerance = 0.0};
+        polish_.improve(system_, l, system_.residual(l, q));
+        for (std::size_t c = 0; c < system_.contact_count(); ++c) {
+            const double l_n = std::max(l[System::first(c)], 0.0);
+            l.template segment<Dim>(System::first(c)) = l_n * Vector<Dim>::Unit(0);
+        }
+        return proves_overlap(l);
+    }
 
     /// Impulses that run away make any residual small: large ones must show that they may be.
-    bool runs_away() const {
-        constexpr double suspicious = 1e5;
-        return scaled_.norm() > suspicious * system_.free_velocity().norm();
+    static constexpr double suspicious = 1e5;
+    bool runs_away() const { return scaled_.norm() > suspicious * system_.free_velocity().norm(); }
+    bool run_away(std::span<const Vector<Dim>> free_velocity, std::span<const Vector<Dim>> r) {
+        velocity_.assign(r.size(), Vector<Dim>::Zero());
+        return measure_.scale(velocity_, r) > suspicious * measure_.scale(free_velocity, velocity_);
     }
     /// Takes the impulses of the factorising engines if they are better by the one measure.
     template <class W>

@@ -12,7 +12,8 @@ enum class SolveStatus {
     iteration_limit,  ///< it is not: allow more iterations, accept a larger tolerance or change the
                       ///< solver
     stalled,          ///< it is not, and more iterations of this solver would not help
-    no_solution,      ///< a certificate was found that no impulses obey all laws: change the data
+    no_solution,      ///< a certificate was found that no impulses obey all laws, however small
+                      ///< the residual of very large ones may be: change the data
     stopped,          ///< an observer asked to stop
     not_finite,  ///< input or arithmetic produced NaN or infinity: the impulses are the last finite
 };

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <talus/solver/accelerated_gauss_seidel.hpp>
+#include <talus/solver/gauss_seidel.hpp>
+
+#include "common/dimensions.hpp"
+#include "common/gallery_tester.hpp"
+
+namespace {
+
+constexpr int most = 4000;
+constexpr SolverPromises by_sweeps{.well_posed = 1e-9, .hyperstatic = 1e-4, .rough = 1e-9};
+
+template <int Dim>
+auto sweeps(talus::SweepOrder order) {
+    return [order](double tolerance) {
+        return talus::GaussSeidel<Dim, talus::Coulomb<Dim>>(
+            {.max_sweeps = most, .tolerance = tolerance, .order = order});
+    };
+}
+template <int Dim>
+auto passes(talus::Acceleration acceleration) {
+    return [acceleration](double tolerance) {
+        return talus::AcceleratedGaussSeidel<Dim, talus::Coulomb<Dim>>(
+            {.max_iterations = most, .tolerance = tolerance, .acceleration = acceleration});
+    };
+}
+template <int Dim, class Make>
+void in_all_forms_agree(Make make) {
+    test_forms_agree<Dim>(
+        {of_bodies<Dim>(make, by_sweeps, most), of_blocks<Dim>(make, by_sweeps, most),
+         of_matrices<Dim>(make, by_sweeps, most)},
+        1e-12, 1e-9);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(gallery_of_sweeps)
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(gauss_seidel, D, dimensions) {
+    for (const auto order : {talus::SweepOrder::forward, talus::SweepOrder::symmetric})
+        test_on_gallery(of_bodies<D::value>(sweeps<D::value>(order), by_sweeps, most));
+    test_on_gallery(
+        of_blocks<D::value>(sweeps<D::value>(talus::SweepOrder::forward), by_sweeps, most));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(accelerated_gauss_seidel, D, dimensions) {
+    for (const auto acceleration : {talus::Acceleration::nesterov, talus::Acceleration::anderson}) {
+        BOOST_TEST_INFO_SCOPE(
+            (acceleration == talus::Acceleration::nesterov ? "nesterov" : "anderson"));
+        test_on_gallery(of_bodies<D::value>(passes<D::value>(acceleration), by_sweeps, most));
+        test_on_gallery(of_matrices<D::value>(passes<D::value>(acceleration), by_sweeps, most));
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(forms_agree, D, dimensions) {
+    in_all_forms_agree<D::value>(sweeps<D::value>(talus::SweepOrder::symmetric));
+    in_all_forms_agree<D::value>(passes<D::value>(talus::Acceleration::nesterov));
+    in_all_forms_agree<D::value>(passes<D::value>(talus::Acceleration::anderson));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
