@@ -79,7 +79,10 @@ class ConeSystem {
     bool analyzed_ = false;
     // Contact space: blocks of W by rows.
     std::vector<std::size_t> row_begin_, column_;
-    std::vector<Small> block_;
+    std::vector<double> value_;  ///< column by column, and one number more
+    Eigen::Map<const Small> block(std::size_t k) const {
+        return Eigen::Map<const Small>(value_.data() + Dim * Dim * k);
+    }
     // Body space.
     BodyMap<Dim> bodies_;
     mutable Vec v_;
@@ -113,16 +116,20 @@ void ConeSystem<Dim>::assign(const DelassusSparse<Dim>& w,
     in_body_space_ = false;
     row_begin_.assign(1, 0);
     column_.clear();
-    block_.clear();
+    value_.clear();
+    column_.reserve(w.block_count());
+    value_.reserve(Dim * Dim * w.block_count() + 1);
     for (std::size_t i = 0; i < contact_count(); ++i) {
         const auto columns = w.columns(i);
         const auto blocks = w.blocks(i);
         for (std::size_t k = 0; k < columns.size(); ++k) {
             column_.push_back(columns[k]);
-            block_.push_back(scale_[i] * scale_[columns[k]] * blocks[k]);
+            const Small block = scale_[i] * scale_[columns[k]] * blocks[k];
+            value_.insert(value_.end(), block.data(), block.data() + block.size());
         }
         row_begin_.push_back(column_.size());
     }
+    value_.push_back(0.0);
 }
 
 template <int Dim>
@@ -142,12 +149,26 @@ void ConeSystem<Dim>::multiply(const Vec& r, Vec& u) const {
         bodies_.to_contacts(v_, u);
         return;
     }
+    // Four numbers of a block at a time; for Dim = 3 the fourth belongs to the next column and is
+    // dropped.
+    using Four = Eigen::Vector4d;
+    const auto load = [](const double* x) { return Eigen::Map<const Four>(x); };
     u.resize(q_.size());
     for (std::size_t i = 0; i < contact_count(); ++i) {
-        Vector<Dim> sum = Vector<Dim>::Zero();
-        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
-            sum.noalias() += block_[k] * r.template segment<Dim>(first(column_[k]));
-        u.template segment<Dim>(first(i)) = sum;
+        Four sum = Four::Zero();
+        const double* a = value_.data() + Dim * Dim * row_begin_[i];
+        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k, a += Dim * Dim) {
+            const double* const x = r.data() + Dim * column_[k];
+            if constexpr (Dim == 2) {
+                sum += load(a).cwiseProduct(Four(x[0], x[0], x[1], x[1]));
+            } else {
+                sum += x[0] * load(a) + x[1] * load(a + 3) + x[2] * load(a + 6);
+            }
+        }
+        if constexpr (Dim == 2)
+            u.template segment<2>(first(i)) = sum.head<2>() + sum.tail<2>();
+        else
+            u.template segment<3>(first(i)) = sum.head<3>();
     }
 }
 
@@ -185,7 +206,7 @@ bool ConeSystem<Dim>::factorize(std::span<const Matrix<Dim>> d) {
         for (std::size_t i = 0; i < contact_count(); ++i)
             for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
                 auto to = lu_.block(slots_[k]);
-                to += block_[k];
+                to += block(k);
                 if (column_[k] == i) to += d_[i];
             }
         return lu_.factorize();
