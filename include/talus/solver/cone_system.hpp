@@ -69,6 +69,14 @@ class ConeSystem {
     using Small = Matrix<Dim>;
     void set_common(std::span<const Vector<Dim>> free_velocity,
                     std::vector<FrictionCone<Dim>> cones, const ResidualMeasure<Dim>& measure);
+    /// Analyses the pattern of sizes_ and edges_ unless it is that of the last time.
+    void analyze() {
+        analyzed_ = true;
+        if (lu_.size() > 0 && edges_ == last_edges_ && sizes_ == last_sizes_) return;
+        lu_.analyze(sizes_, edges_);
+        last_edges_ = edges_;
+        last_sizes_ = sizes_;
+    }
     void solve_once(const Vec& b, Vec& x);
     void apply_inverse(const Vec& b, Vec& x) const;
 
@@ -88,6 +96,8 @@ class ConeSystem {
     mutable Vec v_;
 
     BlockLu lu_;
+    std::vector<std::pair<int, int>> edges_, last_edges_;
+    std::vector<int> sizes_, last_sizes_;
     std::vector<int> slots_;
     std::vector<Small> d_, d_inverse_;
     Vec left_, correction_, body_right_;
@@ -191,16 +201,16 @@ bool ConeSystem<Dim>::factorize(std::span<const Matrix<Dim>> d) {
     const auto index = [](std::size_t i) { return static_cast<int>(i); };
     if (!in_body_space_) {
         if (!analyzed_) {
-            std::vector<std::pair<int, int>> edges;
+            edges_.clear();
             for (std::size_t i = 0; i < contact_count(); ++i)
                 for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
-                    if (column_[k] != i) edges.emplace_back(index(i), index(column_[k]));
-            lu_.analyze(std::vector<int>(contact_count(), Dim), edges);
+                    if (column_[k] != i) edges_.emplace_back(index(i), index(column_[k]));
+            sizes_.assign(contact_count(), Dim);
+            analyze();
             slots_.clear();
             for (std::size_t i = 0; i < contact_count(); ++i)
                 for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
                     slots_.push_back(lu_.slot(index(i), index(column_[k])));
-            analyzed_ = true;
         }
         lu_.set_zero();
         for (std::size_t i = 0; i < contact_count(); ++i)
@@ -212,17 +222,17 @@ bool ConeSystem<Dim>::factorize(std::span<const Matrix<Dim>> d) {
         return lu_.factorize();
     }
     if (!analyzed_) {
-        std::vector<std::pair<int, int>> edges;
+        edges_.clear();
         for (std::size_t c = 0; c < contact_count(); ++c)
             for (const auto& a : bodies_.entries(c))
                 for (const auto& b : bodies_.entries(c))
-                    if (a.body != b.body) edges.emplace_back(a.body, b.body);
-        lu_.analyze(bodies_.body_sizes(), edges);
+                    if (a.body != b.body) edges_.emplace_back(a.body, b.body);
+        sizes_.assign(bodies_.body_sizes().begin(), bodies_.body_sizes().end());
+        analyze();
         slots_.clear();
         for (std::size_t c = 0; c < contact_count(); ++c)
             for (const auto& a : bodies_.entries(c))
                 for (const auto& b : bodies_.entries(c)) slots_.push_back(lu_.slot(a.body, b.body));
-        analyzed_ = true;
     }
     lu_.set_zero();
     for (std::size_t k = 0; k < bodies_.body_sizes().size(); ++k)
@@ -267,6 +277,7 @@ void ConeSystem<Dim>::solve_once(const Vec& b, Vec& x) {
 template <int Dim>
 void ConeSystem<Dim>::solve(const Vec& b, Vec& x, int refinements) {
     solve_once(b, x);
+    if (refinements == 0) return;
     Vec error(b.size());
     double last = std::numeric_limits<double>::infinity();
     for (int k = 0; k < refinements; ++k) {
