@@ -36,11 +36,13 @@ struct FrictionCone {
         // The polar cone first: with mu = 0 and x_t = 0 both tests would accept x_n < 0.
         if (mu * t <= -x[0]) return Vector<Dim>::Zero();
         if (t <= mu * x[0]) return x;
-        const double secant = std::hypot(1.0, mu);
-        const double length = x[0] / secant + (mu / secant) * t;  // along the generator below x
+        // hypot(1, mu), cheaper.
+        const double secant = mu < 1e100 ? std::sqrt(1.0 + mu * mu) : mu;
+        const double cosine = 1.0 / secant, sine = mu / secant;
+        const double length = cosine * x[0] + sine * t;  // along the generator below x
         Vector<Dim> y;
-        y[0] = length / secant;
-        y.template tail<Dim - 1>() = (length * (mu / secant) / t) * x.template tail<Dim - 1>();
+        y[0] = cosine * length;
+        y.template tail<Dim - 1>() = (sine * length / t) * x.template tail<Dim - 1>();
         return y;
     }
 

@@ -60,19 +60,31 @@ class BodyMap {
     /// v = B r, with the components of r contact after contact.
     void to_bodies(const Eigen::VectorXd& r, Eigen::VectorXd& v) const {
         v.setZero(rows());
-        for (std::size_t c = 0; c < contact_count(); ++c)
-            for (const Entry& e : entries(c))
-                v.segment(offset(e.body), size_[static_cast<std::size_t>(e.body)]).noalias() +=
-                    block(e) * r.template segment<Dim>(first(c));
+        for (std::size_t c = 0; c < contact_count(); ++c) {
+            const double* const x = r.data() + first(c);
+            for (const Entry& e : entries(c)) {
+                double* const y = v.data() + offset(e.body);
+                for_rows(e, [=](int k, const double* row) {
+                    double sum = row[0] * x[0];
+                    for (int d = 1; d < Dim; ++d) sum += row[d] * x[d];
+                    y[k] += sum;
+                });
+            }
+        }
     }
     /// u = B^T v.
     void to_contacts(const Eigen::VectorXd& v, Eigen::VectorXd& u) const {
-        u.setZero(static_cast<Eigen::Index>(Dim * contact_count()));
-        for (std::size_t c = 0; c < contact_count(); ++c)
-            for (const Entry& e : entries(c))
-                u.template segment<Dim>(first(c)).noalias() +=
-                    block(e).transpose() *
-                    v.segment(offset(e.body), size_[static_cast<std::size_t>(e.body)]);
+        u.resize(static_cast<Eigen::Index>(Dim * contact_count()));
+        for (std::size_t c = 0; c < contact_count(); ++c) {
+            Vector<Dim> sum = Vector<Dim>::Zero();
+            for (const Entry& e : entries(c)) {
+                const double* const x = v.data() + offset(e.body);
+                for_rows(e, [&](int k, const double* row) {
+                    for (int d = 0; d < Dim; ++d) sum[d] += x[k] * row[d];
+                });
+            }
+            u.template segment<Dim>(first(c)) = sum;
+        }
     }
     /// Multiplies the columns of each contact by its number.
     void scale(std::span<const double> factor) {
@@ -83,6 +95,17 @@ class BodyMap {
     }
 
   private:
+    /// f(k, row) for the rows of a block, their count known to the compiler where it is that of a
+    /// rigid body.
+    template <class F>
+    void for_rows(const Entry& e, F&& f) const {
+        const double* row = values_.data() + e.value;
+        const int rows = size_[static_cast<std::size_t>(e.body)];
+        if (rows == twist_dof<Dim>)
+            for (int k = 0; k < twist_dof<Dim>; ++k, row += Dim) f(k, row);
+        else
+            for (int k = 0; k < rows; ++k, row += Dim) f(k, row);
+    }
     static Eigen::Index first(std::size_t contact) {
         return static_cast<Eigen::Index>(Dim * contact);
     }

@@ -89,12 +89,17 @@ class ConeSystem {
     bool analyzed_ = false;
     // Contact space: blocks of W by rows.
     std::vector<std::size_t> row_begin_, column_;
-    std::vector<Small> block_;
+    std::vector<double> value_;  ///< column by column, and one number more
+    Eigen::Map<const Small> block(std::size_t k) const {
+        return Eigen::Map<const Small>(value_.data() + Dim * Dim * k);
+    }
     // Body space.
     BodyMap<Dim> bodies_;
     mutable Vec v_;
 
     BlockLu lu_;
+    std::vector<std::pair<int, int>> edges_, last_edges_;
+    std::vector<int> sizes_, last_sizes_;
     std::vector<int> slots_;
     std::vector<Small> d_, d_inverse_;
     Vec left_, correction_, error_, body_right_;
@@ -123,16 +128,20 @@ void ConeSystem<Dim>::assign(const DelassusSparse<Dim>& w,
     in_body_space_ = false;
     row_begin_.assign(1, 0);
     column_.clear();
-    block_.clear();
+    value_.clear();
+    column_.reserve(w.block_count());
+    value_.reserve(Dim * Dim * w.block_count() + 1);
     for (std::size_t i = 0; i < contact_count(); ++i) {
         const auto columns = w.columns(i);
         const auto blocks = w.blocks(i);
         for (std::size_t k = 0; k < columns.size(); ++k) {
             column_.push_back(columns[k]);
-            block_.push_back(scale_[i] * scale_[columns[k]] * blocks[k]);
+            const Small block = scale_[i] * scale_[columns[k]] * blocks[k];
+            value_.insert(value_.end(), block.data(), block.data() + block.size());
         }
         row_begin_.push_back(column_.size());
     }
+    value_.push_back(0.0);
 }
 
 template <int Dim>
@@ -152,12 +161,26 @@ void ConeSystem<Dim>::multiply(const Vec& r, Vec& u) const {
         bodies_.to_contacts(v_, u);
         return;
     }
+    // Four numbers of a block at a time; for Dim = 3 the fourth belongs to the next column and is
+    // dropped.
+    using Four = Eigen::Vector4d;
+    const auto load = [](const double* x) { return Eigen::Map<const Four>(x); };
     u.resize(q_.size());
     for (std::size_t i = 0; i < contact_count(); ++i) {
-        Vector<Dim> sum = Vector<Dim>::Zero();
-        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
-            sum.noalias() += block_[k] * r.template segment<Dim>(first(column_[k]));
-        u.template segment<Dim>(first(i)) = sum;
+        Four sum = Four::Zero();
+        const double* a = value_.data() + Dim * Dim * row_begin_[i];
+        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k, a += Dim * Dim) {
+            const double* const x = r.data() + Dim * column_[k];
+            if constexpr (Dim == 2) {
+                sum += load(a).cwiseProduct(Four(x[0], x[0], x[1], x[1]));
+            } else {
+                sum += x[0] * load(a) + x[1] * load(a + 3) + x[2] * load(a + 6);
+            }
+        }
+        if constexpr (Dim == 2)
+            u.template segment<2>(first(i)) = sum.head<2>() + sum.tail<2>();
+        else
+            u.template segment<3>(first(i)) = sum.head<3>();
     }
 }
 
@@ -183,7 +206,7 @@ bool ConeSystem<Dim>::factorize(std::span<const Matrix<Dim>> d) {
         for (std::size_t i = 0; i < contact_count(); ++i)
             for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
                 auto to = lu_.block(slots_[k]);
-                to += block_[k];
+                to += block(k);
                 if (column_[k] == i) to += d_[i];
             }
         return lu_.factorize();
@@ -204,32 +227,42 @@ bool ConeSystem<Dim>::factorize(std::span<const Matrix<Dim>> d) {
     return lu_.factorize();
 }
 
-/// Orders and places what factorize fills. Done once per problem, when first needed.
+/// Orders and places what factorize fills, when first needed. The order is kept as long as problems
+/// of the same pattern follow each other.
 template <int Dim>
 void ConeSystem<Dim>::analyze() {
     if (analyzed_) return;
     analyzed_ = true;
     const auto index = [](std::size_t i) { return static_cast<int>(i); };
-    std::vector<std::pair<int, int>> edges;
+    edges_.clear();
+    if (in_body_space_) {
+        for (std::size_t c = 0; c < contact_count(); ++c)
+            for (const auto& a : bodies_.entries(c))
+                for (const auto& b : bodies_.entries(c))
+                    if (a.body != b.body) edges_.emplace_back(a.body, b.body);
+        sizes_.assign(bodies_.body_sizes().begin(), bodies_.body_sizes().end());
+    } else {
+        for (std::size_t i = 0; i < contact_count(); ++i)
+            for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
+                if (column_[k] != i) edges_.emplace_back(index(i), index(column_[k]));
+        sizes_.assign(contact_count(), Dim);
+    }
+    if (lu_.size() == 0 || edges_ != last_edges_ || sizes_ != last_sizes_) {
+        lu_.analyze(sizes_, edges_);
+        last_edges_ = edges_;
+        last_sizes_ = sizes_;
+    }
     slots_.clear();
-    if (!in_body_space_) {
-        for (std::size_t i = 0; i < contact_count(); ++i)
-            for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
-                if (column_[k] != i) edges.emplace_back(index(i), index(column_[k]));
-        lu_.analyze(std::vector<int>(contact_count(), Dim), edges);
-        for (std::size_t i = 0; i < contact_count(); ++i)
-            for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
-                slots_.push_back(lu_.slot(index(i), index(column_[k])));
+    if (in_body_space_) {
+        for (std::size_t c = 0; c < contact_count(); ++c)
+            for (const auto& a : bodies_.entries(c))
+                for (const auto& b : bodies_.entries(c))
+                    slots_.push_back(lu_.slot(a.body, b.body));
         return;
     }
-    for (std::size_t c = 0; c < contact_count(); ++c)
-        for (const auto& a : bodies_.entries(c))
-            for (const auto& b : bodies_.entries(c))
-                if (a.body != b.body) edges.emplace_back(a.body, b.body);
-    lu_.analyze(bodies_.body_sizes(), edges);
-    for (std::size_t c = 0; c < contact_count(); ++c)
-        for (const auto& a : bodies_.entries(c))
-            for (const auto& b : bodies_.entries(c)) slots_.push_back(lu_.slot(a.body, b.body));
+    for (std::size_t i = 0; i < contact_count(); ++i)
+        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
+            slots_.push_back(lu_.slot(index(i), index(column_[k])));
 }
 
 template <int Dim>
@@ -258,6 +291,7 @@ void ConeSystem<Dim>::solve_once(const Vec& b, Vec& x) {
 template <int Dim>
 void ConeSystem<Dim>::solve(const Vec& b, Vec& x, int refinements) {
     solve_once(b, x);
+    if (refinements == 0) return;
     Vec& error = error_;
     double last = std::numeric_limits<double>::infinity();
     for (int k = 0; k < refinements; ++k) {
