@@ -7,7 +7,7 @@
 
 namespace {
 
-constexpr int most = 4000;
+constexpr int most = 40000;
 constexpr SolverPromises by_sweeps{.well_posed = 1e-9, .hyperstatic = 1e-4, .rough = 1e-9};
 
 template <int Dim>
