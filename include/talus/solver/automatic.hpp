@@ -128,6 +128,8 @@ class Automatic {
         sweep(w, free_velocity, laws, r, first_sweeps);
         if (finished()) return report_;
         if (accelerate(w, free_velocity, laws, r, first_passes)) return report_;
+        while (ends_soon())
+            if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
 
         if (params.max_factorizations == 0 || !take_cones(laws)) {
             while (accelerate_on(w, free_velocity, laws, r, 2 * last_passes_)) {
@@ -141,7 +143,8 @@ class Automatic {
         const double worth =
             usual_factorizations * system_.factorization_cost() / (cost_of_pass * visits);
         // Sweeps go on while they promise an end soon, and at least for a quarter of that cost.
-        while (sweeps_left_ > 1 && (passes_ < 0.25 * worth || passes_to_go() < 0.5 * worth))
+        while (sweeps_left_ > 1 && (passes_ < 0.25 * worth ||
+                                    passes_to_go(std::max(speed_[0], speed_[1])) < 0.5 * worth))
             if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
         factorizations_left_ = params.max_factorizations;
         for (const double margin : {0.1, 1.0, 0.01}) {
@@ -210,8 +213,10 @@ class Automatic {
                     std::span<Vector<Dim>> r, int passes) {
         last_passes_ = std::min(passes, sweeps_left_ / 2);
         if (last_passes_ == 0) return true;
-        // The accelerator that gained more per pass when it was last used; both are tried first.
-        const std::size_t momentum = speed_[1] > speed_[0];
+        // The accelerator that gained more per pass when it was last used; both are tried first,
+        // unless one is about to be done.
+        const std::size_t momentum = ends_soon() ? last_used_ : speed_[1] > speed_[0];
+        last_used_ = momentum;
         const double before = report_.residual;
         accelerated_.params = {
             .max_iterations = last_passes_,
@@ -237,12 +242,15 @@ class Automatic {
         constexpr int longest = 4000;
         return !accelerate(w, free_velocity, laws, r, std::min(passes, longest));
     }
-    /// Double sweeps that the tolerance will take at the rate of the last ones.
-    double passes_to_go() const {
+    /// Double sweeps that the tolerance will take at a rate.
+    double passes_to_go(double speed) const {
         const double wanted = std::log(report_.residual / std::max(params.tolerance, 1e-16));
-        const double speed = std::max(speed_[0], speed_[1]);
         constexpr double never = 1e9;
         return speed > 0.0 ? wanted / speed : never;
+    }
+    /// Whether the accelerator used last needs no more passes than it was just given.
+    bool ends_soon() const {
+        return passes_ > 0 && sweeps_left_ > 1 && passes_to_go(speed_[last_used_]) <= last_passes_;
     }
 
     bool take_cones(std::span<const Law> laws) {
@@ -383,6 +391,7 @@ class Automatic {
     int factorizations_left_ = 0;
     int passes_ = 0;
     std::array<double, 2> speed_{};  ///< digits (natural) per pass: anderson, nesterov
+    std::size_t last_used_ = 0;      ///< index into speed_
     double factor_residual_ = 0.0, polished_at_ = 0.0;
 };
 
