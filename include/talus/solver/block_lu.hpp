@@ -3,6 +3,7 @@
 
 #include <talus/core/check.hpp>
 #include <talus/solver/frontal_plan.hpp>
+#include <talus/solver/serial_product.hpp>
 
 #include <Eigen/Core>
 
@@ -97,7 +98,7 @@ inline bool BlockLu::eliminate(Eigen::Ref<Dense> a, int* exchange) {
         if (exchange[k] != k) a.row(k).tail(other).swap(a.row(exchange[k]).tail(other));
     auto upper = a.topRightCorner(half, other);
     a.topLeftCorner(half, half).triangularView<Eigen::UnitLower>().solveInPlace(upper);
-    a.bottomRightCorner(rows, other).noalias() -= a.bottomLeftCorner(rows, half) * upper;
+    subtract_product(a.bottomRightCorner(rows, other), a.bottomLeftCorner(rows, half), upper);
     if (!eliminate(a.bottomRightCorner(rows, other), exchange + half)) return false;
     for (Eigen::Index k = half; k < n; ++k) {
         exchange[k] += static_cast<int>(half);
@@ -159,7 +160,7 @@ inline bool BlockLu::factorize() {
         pivot.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(lower);
         BlockMap s(stack_.data() + top, f.rest, f.rest);
         s = a.bottomRightCorner(f.rest, f.rest);
-        s.noalias() -= lower * upper;
+        subtract_product(s, lower, upper);
         top += node(f.rest) * node(f.rest);
     }
     return true;
