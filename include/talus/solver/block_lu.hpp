@@ -29,14 +29,11 @@ class BlockLu {
     using Dense = Eigen::MatrixXd;
     using BlockMap = Eigen::Map<Dense>;
 
-    /// Plans the factorisation of a pattern: see FrontalPlan::analyze.
+    /// Plans the factorisation of a pattern: see FrontalPlan::analyze. Takes no memory for numbers
+    /// yet.
     void analyze(std::span<const int> node_size, std::span<const std::pair<int, int>> edges) {
         plan_.analyze(node_size, edges);
-        values_.assign(plan_.value_count(), 0.0);
-        factor_.resize(plan_.factor_size());
-        exchange_.resize(plan_.pivot_rows());
-        work_.resize(plan_.largest_front());
-        stack_.resize(plan_.deepest_stack());
+        values_.clear();
     }
 
     int size() const { return plan_.size(); }  ///< rows
@@ -44,16 +41,22 @@ class BlockLu {
     double operations() const { return plan_.operations(); }
     std::size_t front_count() const { return plan_.fronts().size(); }
     /// Numbers in the factors: what memory and the cost of a solve go with.
-    std::size_t factor_size() const { return factor_.size(); }
+    std::size_t factor_size() const { return plan_.factor_size(); }
+    /// Memory for the numbers of the matrix, its factors and the work of factorising [bytes].
+    double bytes() const {
+        return static_cast<double>(sizeof(double)) *
+               static_cast<double>(plan_.value_count() + plan_.factor_size() +
+                                   plan_.largest_front() + plan_.deepest_stack());
+    }
 
     /// Where block (i, j) is, for `block`. The block must be on the diagonal or among the edges.
     int slot(int i, int j) const { return plan_.slot(i, j); }
-    /// The values of a block, to be added to.
+    /// The values of a block, to be added to after the first `set_zero`.
     BlockMap block(int slot) {
         const FrontalPlan::Slot& s = plan_.slot(slot);
         return BlockMap(values_.data() + s.value, s.rows, s.columns);
     }
-    void set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
+    void set_zero() { values_.assign(plan_.value_count(), 0.0); }
 
     /// Factorises the present values. False if a pivot is zero or not finite.
     bool factorize();
@@ -108,6 +111,11 @@ inline bool BlockLu::eliminate(Eigen::Ref<Dense> a, int* exchange) {
 }
 
 inline bool BlockLu::factorize() {
+    TALUS_CHECK(values_.size() == plan_.value_count(), "set_zero comes first");
+    factor_.resize(plan_.factor_size());
+    exchange_.resize(plan_.pivot_rows());
+    work_.resize(plan_.largest_front());
+    stack_.resize(plan_.deepest_stack());
     std::size_t top = 0;
     std::vector<int>& local = local_;
     local.assign(node(plan_.node_count()), 0);

@@ -69,6 +69,11 @@ class ConeSystem {
         return lu_.operations() / 120.0 + 10.0 * static_cast<double>(lu_.front_count()) +
                static_cast<double>(slots_.size());
     }
+    /// Memory that a factorisation takes [bytes].
+    double factorization_bytes() {
+        analyze();
+        return lu_.bytes();
+    }
     /// Factorises W + D. False if that fails.
     bool factorize(std::span<const Matrix<Dim>> d);
     /// x with (W + D) x = b, refined until the error is rounding (at most `refinements` times).
