@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/types.hpp>
+#include <talus/solver/central_pair.hpp>
 #include <talus/solver/cone_engine.hpp>
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace talus {
@@ -34,8 +36,8 @@ struct ProximalNewtonParams {
 /// regular matrix. alpha falls tenfold with every step that comes easily, so that the outer
 /// iteration ends superlinearly, and rises where the inner one stops.
 ///
-/// The inner problem is Alart and Curnier's pair of equations [AlartCurnier1991] at each contact,
-/// with rho = 1 / (1 + alpha), and x = r - rho u:
+/// The inner problem is first Alart and Curnier's pair of equations [AlartCurnier1991] at each
+/// contact, with rho = 1 / (1 + alpha), and x = r - rho u:
 ///
 ///   r_n = max(0, x_n),   r_t = nearest point to x_t of the disc of radius mu max(0, x_n).
 ///
@@ -44,11 +46,17 @@ struct ProximalNewtonParams {
 /// 1e-9. Steps are halved until the error is below the largest of the last four
 /// [GrippoEtAl1986]. Steps that stop short are kept if the residual fell.
 ///
-/// Proximal point and this Newton method together are the sturdiest solver of the comparison
-/// [AcaryBremondHuber2018]. Here: 4 to 15 factorisations for most of the problems of other codes,
-/// masonry and hyperstatic ones included, 50 to 75 for the rest, also at 1e-12. Flowing packings
-/// end between 1e-4 and 1e-5, as with all factorising engines: `stalled` or `iteration_limit`, with
-/// the best impulses met.
+/// Where that stops twice, as it does where many contacts are on the border of two statuses, the
+/// solver begins anew with the smooth pairs of solver/central_pair.hpp, whose sqrt(eps) is the
+/// outer error: u = W r + q alone is left to Newton. Begun where the first equations ended they
+/// gain nothing: they must come along the middle of the cones. After six stops more the first
+/// equations go on from the best impulses: they are the better ones for a friction of 1e3.
+///
+/// Proximal point and a semismooth Newton method together are the sturdiest solver of the
+/// comparison [AcaryBremondHuber2018]. Here: 4 to 15 factorisations for most of the problems of
+/// other codes, masonry and hyperstatic ones included, 40 to 80 for the rest, also at 1e-12.
+/// Flowing packings end between 1e-4 and 1e-5, as with all factorising engines: `stalled` or
+/// `iteration_limit`, with the best impulses met.
 ///
 /// `no_solution` is reported where impulses grow along normal ones that move nothing and yet meet a
 /// velocity: no motion separates all contacts then (Farkas' lemma).
@@ -69,8 +77,12 @@ class ProximalNewton : public ConeEngine<Dim, Law, ProximalNewton<Dim, Law>> {
 
     void iterate(Vec& best);
     Inner solve_inner(Vec& best, int& iteration);
-    double evaluate(const Vec& r);
-    void differentiate();
+    double evaluate(const Vec& x);
+    double evaluate_sharp(const Vec& r);
+    double evaluate_smooth(const Vec& x);
+    void find_direction();
+    void differentiate_sharp();
+    void set_smoothness(double residual);
     bool proves_overlap();
 
     double rho() const { return 1.0 / (1.0 + alpha_); }
@@ -82,16 +94,43 @@ class ProximalNewton : public ConeEngine<Dim, Law, ProximalNewton<Dim, Law>> {
 
     double alpha_ = 1.0;
     int easy_ = 0;  ///< Newton steps of the last inner problem
-    Vec centre_;    ///< r_k
-    Vec r_, u_;     ///< the iterate and W r + q
-    Vec error_;     ///< of the inner equations
-    Vec from_, right_, dr_;
+    bool smooth_ = false;
+    double eps_ = 0.0;       ///< of the smooth pairs
+    Vec centre_, begin_;     ///< r_k and r_0
+    Vec x_, from_;           ///< unknowns: r, or r - u where smooth
+    Vec r_, u_;              ///< impulses at x and W r + q
+    Vec error_;              ///< of the inner equations
+    Vec right_, dr_, step_;  ///< step_: of the unknowns
     std::vector<Matrix<Dim>> d_;
+    std::vector<CentralPair<Dim>> pairs_;
 };
 
-/// Takes r as the iterate; returns the size of the inner equations' error.
+/// Takes the unknowns; returns the size of the inner equations' error.
 template <int Dim, ContactLaw<Dim> Law>
-double ProximalNewton<Dim, Law>::evaluate(const Vec& r) {
+double ProximalNewton<Dim, Law>::evaluate(const Vec& x) {
+    return smooth_ ? evaluate_smooth(x) : evaluate_sharp(x);
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+double ProximalNewton<Dim, Law>::evaluate_smooth(const Vec& x) {
+    const auto& system = this->system_;
+    r_.resize(x.size());
+    error_.resize(x.size());
+    pairs_.resize(system.contact_count());
+    for (std::size_t c = 0; c < pairs_.size(); ++c) {
+        const Eigen::Index i = system.first(c);
+        pairs_[c] = central_pair<Dim>(x.template segment<Dim>(i), system.cone(c).mu, eps_);
+        r_.template segment<Dim>(i) = pairs_[c].r;
+        error_.template segment<Dim>(i) = -pairs_[c].u;
+    }
+    system.multiply(r_, u_);
+    u_ += system.free_velocity();
+    error_ += u_ + alpha_ * (r_ - centre_);
+    return error_.norm();
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+double ProximalNewton<Dim, Law>::evaluate_sharp(const Vec& r) {
     const auto& system = this->system_;
     r_ = r;
     system.multiply(r_, u_);
@@ -110,9 +149,35 @@ double ProximalNewton<Dim, Law>::evaluate(const Vec& r) {
     return error_.norm();
 }
 
-/// Fills D = alpha + B^-1 A and the right-hand side -B^-1 error at the iterate.
+/// Newton's step_ from the unknowns evaluated last; not finite if there is none.
 template <int Dim, ContactLaw<Dim> Law>
-void ProximalNewton<Dim, Law>::differentiate() {
+void ProximalNewton<Dim, Law>::find_direction() {
+    auto& system = this->system_;
+    if (smooth_) {
+        d_.resize(pairs_.size());
+        for (std::size_t c = 0; c < pairs_.size(); ++c) {
+            d_[c] = pairs_[c].d;
+            d_[c].diagonal().array() += alpha_;
+        }
+        right_ = -error_;
+    } else {
+        differentiate_sharp();
+    }
+    if (!system.factorize(d_)) {
+        step_.setConstant(error_.size(), std::numeric_limits<double>::quiet_NaN());
+        return;
+    }
+    system.solve(right_, dr_);
+    step_ = dr_;
+    if (!smooth_) return;
+    for (std::size_t c = 0; c < pairs_.size(); ++c)
+        step_.template segment<Dim>(system.first(c)) +=
+            pairs_[c].d * dr_.template segment<Dim>(system.first(c));
+}
+
+/// Fills D = alpha + B^-1 A and the right-hand side -B^-1 error.
+template <int Dim, ContactLaw<Dim> Law>
+void ProximalNewton<Dim, Law>::differentiate_sharp() {
     constexpr double soft = 1e-9;
     const auto& system = this->system_;
     d_.resize(system.contact_count());
@@ -157,25 +222,30 @@ typename ProximalNewton<Dim, Law>::Inner ProximalNewton<Dim, Law>::solve_inner(V
     constexpr double share = 0.3;  // of the outer step's term
     constexpr double shortest = 0.007;
     auto& system = this->system_;
-    double error = evaluate(centre_);
+    x_ = centre_;
+    if (smooth_) {
+        system.multiply(centre_, u_);
+        x_ -= u_ + system.free_velocity();
+    }
+    double error = evaluate(x_);
     std::array<double, 4> recent;
     recent.fill(error);
     for (int k = 0; k < most && iteration < params.max_iterations; ++k) {
         ++iteration;
         easy_ = k + 1;
-        differentiate();
-        if (!system.factorize(d_)) return Inner::stopped;
-        system.solve(right_, dr_);
-        if (!dr_.allFinite()) return Inner::stopped;
-        from_ = r_;
+        find_direction();
+        if (!step_.allFinite()) return Inner::stopped;
+        from_ = x_;
         const double allowed = *std::max_element(recent.begin(), recent.end());
         double step = 1.0;
-        while (!((error = evaluate(from_ + step * dr_)) <= (1.0 - 0.01 * step) * allowed)) {
+        x_ += step_;
+        while (!((error = evaluate(x_)) <= (1.0 - 0.01 * step) * allowed)) {
             step *= 0.5;
             if (step < shortest) {
                 evaluate(from_);
                 return Inner::stopped;
             }
+            x_ = from_ + step * step_;
         }
         recent[static_cast<std::size_t>(k) % recent.size()] = error;
         if (this->offer(iteration, r_, u_, best)) return Inner::over;
@@ -191,18 +261,34 @@ void ProximalNewton<Dim, Law>::iterate(Vec& best) {
     require_positive("proximal", params.proximal);
     constexpr double least = 1e-10, most = 1e4;
     constexpr double rise = 5.0, fall = 0.1;
+    constexpr int sharp_stops = 2, smooth_stops = 6;
     constexpr double large = 1e3;  // impulses, over the velocities they stop
     alpha_ = params.proximal;
-    centre_ = best;
-    double residual = this->best_residual();
-    int iteration = 0;
-    while (iteration < params.max_iterations && alpha_ <= most) {
+    smooth_ = false;
+    centre_ = begin_ = best;
+    const double first_residual = this->best_residual();
+    double residual = first_residual;
+    int iteration = 0, stops = 0;
+    bool returned = false;  // from the smooth pairs
+    while (iteration < params.max_iterations && (smooth_ || alpha_ <= most)) {
+        set_smoothness(residual);
         const Inner inner = solve_inner(best, iteration);
         if (r_.norm() > large * this->system_.free_velocity().norm() && proves_overlap()) {
             this->report_.status = SolveStatus::no_solution;
             return;
         }
         if (inner == Inner::over) return;
+        if (inner == Inner::stopped) ++stops;
+        const bool tired = smooth_ ? stops == smooth_stops || alpha_ > most : stops == sharp_stops;
+        if (tired && !returned) {
+            returned = smooth_;
+            smooth_ = !smooth_;
+            stops = 0;
+            alpha_ = params.proximal;
+            centre_ = smooth_ ? begin_ : best;
+            residual = smooth_ ? first_residual : this->best_residual();
+            continue;
+        }
         const double reached = this->system_.residual(r_, u_);
         if (inner == Inner::solved && reached < 10.0 * residual) {
             constexpr int easily = 4;
@@ -215,6 +301,14 @@ void ProximalNewton<Dim, Law>::iterate(Vec& best) {
         centre_ = r_;
         residual = reached;
     }
+}
+
+/// sqrt(eps) of the smooth pairs, from the error at the centre.
+template <int Dim, ContactLaw<Dim> Law>
+void ProximalNewton<Dim, Law>::set_smoothness(double residual) {
+    const auto& system = this->system_;
+    const double error = residual * std::max(centre_.norm(), system.free_velocity().norm());
+    eps_ = error * error / static_cast<double>(system.contact_count()) + 1e-300;
 }
 
 /// Whether the last outer step's normal impulses prove that no solution exists.
