@@ -55,7 +55,7 @@ struct ProximalNewtonParams {
 /// Proximal point and a semismooth Newton method together are the sturdiest solver of the
 /// comparison [AcaryBremondHuber2018]. Here: 4 to 15 factorisations for most of the problems of
 /// other codes, masonry and hyperstatic ones included, 40 to 80 for the rest, also at 1e-12.
-/// Flowing packings end between 1e-4 and 1e-5, as with all factorising engines: `stalled` or
+/// Flowing packings end at some 1e-4, 2e-5 at best, as with all factorising engines: `stalled` or
 /// `iteration_limit`, with the best impulses met.
 ///
 /// `no_solution` is reported where impulses grow along normal ones that move nothing and yet meet a
@@ -273,6 +273,7 @@ void ProximalNewton<Dim, Law>::iterate(Vec& best) {
     while (iteration < params.max_iterations && (smooth_ || alpha_ <= most)) {
         set_smoothness(residual);
         const Inner inner = solve_inner(best, iteration);
+        this->report_.iterations = iteration;  // also where the last step was not offered
         if (r_.norm() > large * this->system_.free_velocity().norm() && proves_overlap()) {
             this->report_.status = SolveStatus::no_solution;
             return;
