@@ -8,6 +8,7 @@
 #include <talus/solver/gauss_seidel.hpp>
 #include <talus/solver/interior_point.hpp>
 #include <talus/solver/projected_gradient.hpp>
+#include <talus/solver/proximal_newton.hpp>
 #ifdef TALUS_BENCH_SICONOS
 #include "peer_siconos.hpp"
 #endif
@@ -43,6 +44,7 @@ std::vector<RegisteredSolver> own_solvers() {
     solvers.push_back(own<talus::Extragradient>("extragradient"));
     solvers.push_back(own<talus::Admm>("admm"));
     solvers.push_back(own<talus::InteriorPoint>("interior_point"));
+    solvers.push_back(own<talus::ProximalNewton>("proximal_newton"));
     return solvers;
 }
 

@@ -11,6 +11,7 @@
 #include <talus/solver/gauss_seidel.hpp>
 #include <talus/solver/interior_point.hpp>
 #include <talus/solver/projected_gradient.hpp>
+#include <talus/solver/proximal_newton.hpp>
 
 #include <array>
 #include <span>
@@ -60,6 +61,8 @@ inline constexpr std::array solver_choices{
     SolverChoice<Dim>{"admm", &solve_with<talus::Admm<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"interior_point",
                       &solve_with<talus::InteriorPoint<Dim, talus::Coulomb<Dim>>>},
+    SolverChoice<Dim>{"proximal_newton",
+                      &solve_with<talus::ProximalNewton<Dim, talus::Coulomb<Dim>>>},
 };
 
 inline std::string solver_names() {

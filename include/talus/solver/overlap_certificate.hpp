@@ -47,7 +47,7 @@ class OverlapCertificate {
             if (w.diagonal_block(i).isZero(0.0) && free_velocity[i][0] < 0.0) return true;
         }
         system.to_scaled(r_, l_);
-        return holds(system);
+        return holds(l_, system);
     }
     /// From 30 steps of Newton's method, an engine with `improve`, also where sweeps take too long.
     /// `system` must be without friction.
@@ -62,20 +62,19 @@ class OverlapCertificate {
             const double l_n = std::max(l_[System::first(c)], 0.0);
             l_.template segment<Dim>(System::first(c)) = l_n * Vector<Dim>::Unit(0);
         }
-        return holds(system);
+        return holds(l_, system);
+    }
+    /// Whether scaled normal impulses l are a proof.
+    bool holds(const Eigen::VectorXd& l, const System& system) {
+        system.multiply(l, u_);
+        constexpr double rounding = 1e-9, clear = 1e-6;
+        const double size = l.norm();
+        const double speed = system.free_velocity().template lpNorm<Eigen::Infinity>();
+        return size > 0.0 && u_.norm() <= rounding * size &&
+               l.dot(system.free_velocity()) < -clear * size * speed;
     }
 
   private:
-    /// Whether l_ is a proof.
-    bool holds(const System& system) {
-        system.multiply(l_, u_);
-        constexpr double rounding = 1e-9, clear = 1e-6;
-        const double size = l_.norm();
-        const double speed = system.free_velocity().template lpNorm<Eigen::Infinity>();
-        return size > 0.0 && u_.norm() <= rounding * size &&
-               l_.dot(system.free_velocity()) < -clear * size * speed;
-    }
-
     GaussSeidel<Dim, Signorini<Dim>> gauss_seidel_;
     std::vector<Signorini<Dim>> laws_;
     std::vector<Vector<Dim>> r_, before_;
