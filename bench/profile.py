@@ -25,6 +25,7 @@ class Results:
     def __init__(self):
         self.time = {}
         self.residual = {}
+        self.spent = {}  # also by failures
         self.context = {}
         self.contacts = {}
 
@@ -44,6 +45,7 @@ class Results:
             if key not in results.time or (solved and (earlier is None or time < earlier)):
                 results.time[key] = time if solved else None
                 results.residual[key] = run["residual"]
+                results.spent[key] = time
             results.contacts[problem] = int(run["contacts"])
         return results
 
@@ -204,14 +206,22 @@ def text_of_time(seconds):
     return "–" if seconds is None else f"{1e3 * seconds:.3g}"
 
 
+def total(results, tolerance, solver):
+    """Time [s] for all problems the solver applies to, failures at the limit."""
+    limit = float(results.context.get("limit_seconds", "nan"))
+    return sum(limit if time is None else time for (t, _, s), time in results.time.items()
+               if (t, s) == (tolerance, solver))
+
+
 def summary(results, tolerance):
-    """Rows (solver, solved, failed, geometric mean of the ratios to the best, share within 2)."""
+    """Rows (solver, solved, failed, geometric mean of the ratios to the best, share within 2, total time)."""
     rows = []
     for solver in results.solvers():
         found = ratios(results, tolerance, solver)
         if found:
             failed = sum(not math.isfinite(r) for r in found)
-            rows.append((solver, len(found) - failed, failed, geometric_mean(found), profile(found, 2.0)))
+            rows.append((solver, len(found) - failed, failed, geometric_mean(found), profile(found, 2.0),
+                         total(results, tolerance, solver)))
     return rows
 
 
@@ -247,9 +257,10 @@ def plain(results):
                 row.append(f"{text:>22}")
             out.append(" ".join(row).rstrip())
         out.append("")
-        for solver, solved, failed, mean, share in summary(results, tolerance):
+        for solver, solved, failed, mean, share, seconds in summary(results, tolerance):
             out.append(f"  {solver:24} solved {solved:3}, failed {failed:3}, geometric mean of ratios "
-                       f"{mean_text(mean)}, within twice the best {100 * share:.0f} %")
+                       f"{mean_text(mean)}, within twice the best {100 * share:.0f} %, all with failures at the "
+                       f"limit {seconds:.3g} s")
         out.append("")
     return "\n".join(out)
 
@@ -294,8 +305,10 @@ def page(results):
     for tolerance in results.tolerances():
         out.append(f"<h2>Residual ≤ {tolerance}</h2>")
         rows = [f"<td>{html.escape(solver)}</td><td>{solved}</td><td>{failed}</td><td>{mean_text(mean)}</td>"
-                f"<td>{100 * share:.0f} %</td>" for solver, solved, failed, mean, share in summary(results, tolerance)]
-        out.append(table(["solver", "solved", "failed", "geometric mean of ratios", "within twice the best"], rows))
+                f"<td>{100 * share:.0f} %</td><td>{seconds:.3g}</td>"
+                for solver, solved, failed, mean, share, seconds in summary(results, tolerance)]
+        out.append(table(["solver", "solved", "failed", "geometric mean of ratios", "within twice the best",
+                          "all, failures at the limit [s]"], rows))
         rows = [f"<td>{html.escape(p)}</td><td>{results.contacts[p]}</td>"
                 + "".join(cell(results, tolerance, p, s) for s in results.solvers()) for p in results.problems()]
         out.append("<p>Time of the solve [ms], and its ratio to the best</p>"
@@ -312,7 +325,7 @@ def main():
     options = parser.parse_args()
     try:
         results = Results.of(json.loads(options.results.read_text(encoding="utf-8")))
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         print(f"profile.py: {options.results} is no result of bench_solvers: {error}", file=sys.stderr)
         return 2
     for key in list(results.time):

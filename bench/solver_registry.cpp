@@ -2,9 +2,13 @@
 #include "solver_registry.hpp"
 
 #include <talus/solver/accelerated_gauss_seidel.hpp>
+#include <talus/solver/admm.hpp>
 #include <talus/solver/automatic.hpp>
+#include <talus/solver/extragradient.hpp>
 #include <talus/solver/gauss_seidel.hpp>
 #include <talus/solver/interior_point.hpp>
+#include <talus/solver/projected_gradient.hpp>
+#include <talus/solver/proximal_newton.hpp>
 #ifdef TALUS_BENCH_SICONOS
 #include "peer_siconos.hpp"
 #endif
@@ -32,7 +36,15 @@ std::vector<RegisteredSolver> own_solvers() {
         own<talus::AcceleratedGaussSeidel>("nesterov", {.acceleration = Acceleration::nesterov}));
     solvers.push_back(
         own<talus::AcceleratedGaussSeidel>("anderson", {.acceleration = Acceleration::anderson}));
+    using talus::GradientStep;
+    solvers.push_back(
+        own<talus::ProjectedGradient>("spectral_gradient", {.step = GradientStep::spectral}));
+    solvers.push_back(
+        own<talus::ProjectedGradient>("accelerated_gradient", {.step = GradientStep::accelerated}));
+    solvers.push_back(own<talus::Extragradient>("extragradient"));
+    solvers.push_back(own<talus::Admm>("admm"));
     solvers.push_back(own<talus::InteriorPoint>("interior_point"));
+    solvers.push_back(own<talus::ProximalNewton>("proximal_newton"));
     return solvers;
 }
 

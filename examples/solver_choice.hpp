@@ -5,9 +5,13 @@
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/accelerated_gauss_seidel.hpp>
+#include <talus/solver/admm.hpp>
 #include <talus/solver/automatic.hpp>
+#include <talus/solver/extragradient.hpp>
 #include <talus/solver/gauss_seidel.hpp>
 #include <talus/solver/interior_point.hpp>
+#include <talus/solver/projected_gradient.hpp>
+#include <talus/solver/proximal_newton.hpp>
 
 #include <array>
 #include <span>
@@ -51,8 +55,14 @@ inline constexpr std::array solver_choices{
     SolverChoice<Dim>{"gauss_seidel", &solve_with<talus::GaussSeidel<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"accelerated_gauss_seidel",
                       &solve_with<talus::AcceleratedGaussSeidel<Dim, talus::Coulomb<Dim>>>},
+    SolverChoice<Dim>{"projected_gradient",
+                      &solve_with<talus::ProjectedGradient<Dim, talus::Coulomb<Dim>>>},
+    SolverChoice<Dim>{"extragradient", &solve_with<talus::Extragradient<Dim, talus::Coulomb<Dim>>>},
+    SolverChoice<Dim>{"admm", &solve_with<talus::Admm<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"interior_point",
                       &solve_with<talus::InteriorPoint<Dim, talus::Coulomb<Dim>>>},
+    SolverChoice<Dim>{"proximal_newton",
+                      &solve_with<talus::ProximalNewton<Dim, talus::Coulomb<Dim>>>},
 };
 
 inline std::string solver_names() {

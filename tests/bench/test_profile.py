@@ -55,6 +55,9 @@ class Computation(unittest.TestCase):
         self.assertEqual(heights, sorted(heights))
         self.assertEqual(profile.curve(self.ratios("slow"), 100.0)[-1], (100.0, heights[-1]))
 
+    def test_total_counts_failures_at_the_limit(self):
+        self.assertAlmostEqual(profile.total(self.results, "1e-04", "fast"), 1.0 + 10.0 + 10.0)
+
     def test_geometric_mean_is_of_solved_problems(self):
         self.assertAlmostEqual(profile.geometric_mean(self.ratios("slow")), 2.0)
         self.assertIsNone(profile.geometric_mean([math.inf]))

@@ -224,7 +224,7 @@ class Gallery {
                 p.free_velocity[n - 1][0] += 1.0;
                 add("just held" + end, Kind::solvable, p);
                 p.free_velocity[n - 1][0] += 1.0;
-                add("let go" + end, Kind::well_posed, p);
+                add("let go" + end, height <= 3 ? Kind::well_posed : Kind::stiff, p);
             }
     }
 
@@ -267,7 +267,7 @@ class Gallery {
                     p.free_velocity[0] = normal * Vec::Unit(0) + along * Vec::Unit(1);
                     add("single contact, mu " + std::to_string(mu) + ", u_free " +
                             std::to_string(normal) + " " + std::to_string(along),
-                        Kind::well_posed, p);
+                        mu <= 1.0 ? Kind::well_posed : Kind::rough, p);
                 }
     }
 

@@ -51,6 +51,24 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(hyperstatic_problems_are_solved_to_rounding, D, di
     }
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(factors_take_no_more_memory_than_allowed, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(84);
+    auto p =
+        RandomProblem<dim, Law<dim>>{.bodies = 6, .contacts = 20, .arm = 0.1}.make(random, {0.5});
+    move_bodies_only<dim>(p, random);
+    const auto factorises = [&](double bytes) {
+        std::vector<talus::Vector<dim>> r(20, talus::Vector<dim>::Zero());
+        talus::Automatic<dim, Law<dim>> solver({.tolerance = 1e-15, .max_factor_bytes = bytes});
+        for (const auto& stage : solver.solve(p, r).stages)
+            if (stage.engine == "interior_point" || stage.engine == "newton_polish") return true;
+        return false;
+    };
+    BOOST_TEST(factorises(1e6));
+    BOOST_TEST(!factorises(100.0));
+    BOOST_CHECK_THROW(factorises(-1.0), talus::input_error);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(blocks_and_bodies_lead_to_the_same_velocities, D, dimensions) {
     constexpr int dim = D::value;
     RandomBlocks random(81);

@@ -7,6 +7,7 @@
 #include <talus/solver/gauss_seidel.hpp>
 #include <talus/solver/interior_point.hpp>
 #include <talus/solver/newton_polish.hpp>
+#include <talus/solver/overlap_certificate.hpp>
 
 #include <Eigen/Core>
 
@@ -29,6 +30,9 @@ struct AutomaticParams {
     int max_sweeps = 40000;
     /// Factorisations allowed in all [-], not negative. 0 leaves everything to sweeps.
     int max_factorizations = 120;
+    /// Memory that the factors may take [bytes], not negative. A problem that needs more is left to
+    /// sweeps.
+    double max_factor_bytes = 2e9;
 };
 
 /// The solver to use when nothing is known of the problem. Engines take turns on the same impulses:
@@ -36,9 +40,9 @@ struct AutomaticParams {
 ///   gauss_seidel     a few sweeps: enough for small and for well warm-started problems;
 ///   anderson, nesterov  accelerated double sweeps, by whichever gains more, as long as that
 ///                    promises an end before that of a factorising engine;
-///   newton_polish    once the residual is small, where a factor is cheap beside the sweeps to
-///   come; interior_point   for what sweeps do not finish, followed by newton_polish again;
-///   anderson         for the rest of the sweeps, if there is still something to do.
+///   newton_polish    once the residual is small, where a factor is cheap beside sweeps to come;
+///   interior_point   for what sweeps do not finish, followed by newton_polish again;
+///   anderson, nesterov  for the rest of the sweeps, if there is still something to do.
 ///
 /// Costs are counted in visits of contacts, from the structure of the problem and never by a clock:
 /// the same input takes the same way on any machine, to the bit. Engines that treat all contacts at
@@ -100,6 +104,7 @@ class Automatic {
         require_non_negative("tolerance", params.tolerance);
         require_non_negative("max_sweeps", params.max_sweeps);
         require_non_negative("max_factorizations", params.max_factorizations);
+        require_non_negative("max_factor_bytes", params.max_factor_bytes);
         report_ = {};
         let_engines_work(w, free_velocity, laws, r, visits, source);
         // An engine that gained nothing leaves samples of what it tried at the end.
@@ -110,7 +115,8 @@ class Automatic {
         if (run_away(free_velocity, r) && take_cones(laws)) {
             for (FrictionCone<Dim>& cone : cones_) cone.mu = 0.0;
             system_.assign(source(), free_velocity, std::move(cones_), measure_);
-            if (nothing_separates(w, free_velocity) || newton_runs_away())
+            if (certificate_.by_sweeps(w, free_velocity, system_) ||
+                certificate_.by_newton(polish_, system_))
                 report_.status = SolveStatus::no_solution;
         }
         return report_;
@@ -128,26 +134,27 @@ class Automatic {
         sweep(w, free_velocity, laws, r, first_sweeps);
         if (finished()) return report_;
         if (accelerate(w, free_velocity, laws, r, first_passes)) return report_;
+        while (ends_soon())
+            if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
 
-        if (params.max_factorizations == 0 || !take_cones(laws)) {
+        if (!take_factors(w, free_velocity, laws, source)) {
             while (accelerate_on(w, free_velocity, laws, r, 2 * last_passes_)) {
             }
             return report_;
         }
-        measure_.prepare(w);
-        system_.assign(source(), free_velocity, std::move(cones_), measure_);
         // Double sweeps that cost as much as an interior-point solve, about.
         constexpr double usual_factorizations = 15.0, cost_of_pass = 2.6;
         const double worth =
             usual_factorizations * system_.factorization_cost() / (cost_of_pass * visits);
         // Sweeps go on while they promise an end soon, and at least for a quarter of that cost.
-        while (sweeps_left_ > 1 && (passes_ < 0.25 * worth || passes_to_go() < 0.5 * worth))
+        while (sweeps_left_ > 1 && (passes_ < 0.25 * worth ||
+                                    passes_to_go(std::max(speed_[0], speed_[1])) < 0.5 * worth))
             if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
         factorizations_left_ = params.max_factorizations;
         for (const double margin : {0.1, 1.0, 0.01}) {
             if (factorizations_left_ == 0) break;
             if (factorize_all(w, free_velocity, laws, r, margin)) return report_;
-            if (nothing_separates(w, free_velocity)) {
+            if (certificate_.by_sweeps(w, free_velocity, system_)) {
                 report_.status = SolveStatus::no_solution;
                 return report_;
             }
@@ -210,8 +217,10 @@ class Automatic {
                     std::span<Vector<Dim>> r, int passes) {
         last_passes_ = std::min(passes, sweeps_left_ / 2);
         if (last_passes_ == 0) return true;
-        // The accelerator that gained more per pass when it was last used; both are tried first.
-        const std::size_t momentum = speed_[1] > speed_[0];
+        // The accelerator that gained more per pass when it was last used; both are tried first,
+        // unless one is about to be done.
+        const std::size_t momentum = ends_soon() ? last_used_ : speed_[1] > speed_[0];
+        last_used_ = momentum;
         const double before = report_.residual;
         accelerated_.params = {
             .max_iterations = last_passes_,
@@ -237,14 +246,26 @@ class Automatic {
         constexpr int longest = 4000;
         return !accelerate(w, free_velocity, laws, r, std::min(passes, longest));
     }
-    /// Double sweeps that the tolerance will take at the rate of the last ones.
-    double passes_to_go() const {
+    /// Double sweeps that the tolerance will take at a rate.
+    double passes_to_go(double speed) const {
         const double wanted = std::log(report_.residual / std::max(params.tolerance, 1e-16));
-        const double speed = std::max(speed_[0], speed_[1]);
         constexpr double never = 1e9;
         return speed > 0.0 ? wanted / speed : never;
     }
+    /// Whether the accelerator used last needs no more passes than it was just given.
+    bool ends_soon() const {
+        return passes_ > 0 && sweeps_left_ > 1 && passes_to_go(speed_[last_used_]) <= last_passes_;
+    }
 
+    /// The problem for the factorising engines. False if they may not or cannot work on it.
+    template <class W, class Source>
+    bool take_factors(const W& w, std::span<const Vector<Dim>> free_velocity,
+                      std::span<const Law> laws, Source&& source) {
+        if (params.max_factorizations == 0 || !take_cones(laws)) return false;
+        measure_.prepare(w);
+        system_.assign(source(), free_velocity, std::move(cones_), measure_);
+        return system_.factorization_bytes() <= params.max_factor_bytes;
+    }
     bool take_cones(std::span<const Law> laws) {
         cones_.clear();
         for (const Law& law : laws) {
@@ -277,57 +298,6 @@ class Automatic {
         report_.stages.push_back({name, engine.report().iterations, factor_residual_});
     }
 
-    /// Whether normal impulses l >= 0 were found that move nothing, W (l n) = 0, and yet meet a
-    /// free velocity with l . u_free < 0. Then sum l_c u_n,c = sum l_c u_free,c < 0 whatever the
-    /// impulses are: some contact must close, and no solution exists (Farkas' lemma). W (l n)
-    /// vanishes to rounding: a solution, if any, has impulses 1e9 times those that would stop
-    /// u_free. Where nothing can separate the contacts, sweeps without friction run away along such
-    /// an l.
-    template <class W>
-    bool nothing_separates(W& w, std::span<const Vector<Dim>> free_velocity) {
-        const std::size_t n = w.contact_count();
-        smooth_.assign(n, Signorini<Dim>{});
-        ray_.assign(n, Vector<Dim>::Zero());
-        constexpr int sweeps = 32;
-        frictionless_.params = {.max_sweeps = sweeps, .tolerance = 0.0};
-        frictionless_.solve(w, free_velocity, std::span<const Signorini<Dim>>(smooth_), ray_);
-        velocity_ = ray_;
-        frictionless_.solve(w, free_velocity, std::span<const Signorini<Dim>>(smooth_), ray_);
-        for (std::size_t i = 0; i < n; ++i) {
-            const double growth = ray_[i][0] - velocity_[i][0];
-            ray_[i] = std::max(growth, 0.0) * Vector<Dim>::Unit(0);
-            // Between obstacles every impulse moves nothing.
-            if (w.diagonal_block(i).isZero(0.0) && free_velocity[i][0] < 0.0) return true;
-        }
-        Eigen::VectorXd l;
-        system_.to_scaled(ray_, l);
-        return proves_overlap(l);
-    }
-    /// The certificate itself, for scaled impulses without tangential parts.
-    bool proves_overlap(const Eigen::VectorXd& l) const {
-        Eigen::VectorXd u;
-        system_.multiply(l, u);
-        constexpr double rounding = 1e-9;
-        const double size = l.norm();
-        return size > 0.0 && u.norm() <= rounding * size &&
-               l.dot(system_.free_velocity()) <
-                   -1e-6 * size * system_.free_velocity().template lpNorm<Eigen::Infinity>();
-    }
-    /// The same certificate from Newton steps without friction, as `system_` must be: where they
-    /// lead out of all bounds they do so along an l, also where sweeps take too long to find it.
-    bool newton_runs_away() {
-        const Eigen::VectorXd& q = system_.free_velocity();
-        Eigen::VectorXd l = Eigen::VectorXd::Zero(q.size());
-        constexpr int steps = 30;
-        polish_.params = {.max_iterations = steps, .tolerance = 0.0};
-        polish_.improve(system_, l, system_.residual(l, q));
-        for (std::size_t c = 0; c < system_.contact_count(); ++c) {
-            const double l_n = std::max(l[System::first(c)], 0.0);
-            l.template segment<Dim>(System::first(c)) = l_n * Vector<Dim>::Unit(0);
-        }
-        return proves_overlap(l);
-    }
-
     /// Impulses that run away make any residual small: large ones must show that they may be.
     static constexpr double suspicious = 1e5;
     bool runs_away() const { return scaled_.norm() > suspicious * system_.free_velocity().norm(); }
@@ -351,7 +321,7 @@ class Automatic {
         if (!(residual <= report_.residual)) {
             std::copy(kept_.begin(), kept_.end(), r.begin());
         } else if (residual <= params.tolerance && runs_away() &&
-                   nothing_separates(w, free_velocity)) {
+                   certificate_.by_sweeps(w, free_velocity, system_)) {
             std::copy(kept_.begin(), kept_.end(), r.begin());
             report_.history.push_back({report_.iterations, report_.residual});
             report_.status = SolveStatus::no_solution;
@@ -366,7 +336,6 @@ class Automatic {
     }
 
     GaussSeidel<Dim, Law> gauss_seidel_;
-    GaussSeidel<Dim, Signorini<Dim>> frictionless_;
     AcceleratedGaussSeidel<Dim, Law> accelerated_;
     InteriorPoint<Dim, Law> interior_;
     NewtonPolish<Dim, Law> polish_;
@@ -375,14 +344,15 @@ class Automatic {
     System system_;
     ResidualMeasure<Dim> measure_;
     std::vector<FrictionCone<Dim>> cones_;
-    std::vector<Vector<Dim>> kept_, velocity_, ray_;
-    std::vector<Signorini<Dim>> smooth_;
+    std::vector<Vector<Dim>> kept_, velocity_;
+    OverlapCertificate<Dim> certificate_;
     Eigen::VectorXd scaled_;
     SolveReport report_;
     int sweeps_left_ = 0, last_passes_ = 0;
     int factorizations_left_ = 0;
     int passes_ = 0;
     std::array<double, 2> speed_{};  ///< digits (natural) per pass: anderson, nesterov
+    std::size_t last_used_ = 0;      ///< index into speed_
     double factor_residual_ = 0.0, polished_at_ = 0.0;
 };
 

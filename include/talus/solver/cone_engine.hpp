@@ -22,7 +22,7 @@ namespace talus {
 /// What the solvers have in common that treat all contacts at once: how a problem comes in, how the
 /// best impulses are kept, and what the report says. `Engine` has `params.tolerance`,
 /// `params.max_iterations` and `iterate(r)`, which improves the scaled impulses r by offering
-/// iterates.
+/// iterates; an engine that finds a certificate sets the status to `no_solution`.
 template <int Dim, ContactLaw<Dim> Law, class Engine>
 class ConeEngine {
   public:
@@ -128,6 +128,7 @@ class ConeEngine {
                 std::copy(kept_.begin(), kept_.end(), r.begin());
         }
         report_.history.push_back({report_.iterations, report_.residual});
+        if (report_.status == SolveStatus::no_solution) return report_;
         if (report_.residual <= engine().params.tolerance)
             report_.status = SolveStatus::converged;
         else if (report_.iterations >= engine().params.max_iterations)

@@ -69,6 +69,11 @@ class ConeSystem {
         return lu_.operations() / 120.0 + 10.0 * static_cast<double>(lu_.front_count()) +
                static_cast<double>(slots_.size());
     }
+    /// Memory that a factorisation takes [bytes].
+    double factorization_bytes() {
+        analyze();
+        return lu_.bytes();
+    }
     /// Factorises W + D. False if that fails.
     bool factorize(std::span<const Matrix<Dim>> d);
     /// x with (W + D) x = b, refined until the error is rounding (at most `refinements` times).
@@ -93,6 +98,20 @@ class ConeSystem {
     Eigen::Map<const Small> block(std::size_t k) const {
         return Eigen::Map<const Small>(value_.data() + Dim * Dim * k);
     }
+    // Products with blocks, four numbers at a time. In the plane these are two columns, to be added
+    // up at the end; in space a column and a number of the next one, which is dropped.
+    using Four = Eigen::Vector4d;
+    static void add_product(const double* block, Eigen::Map<const Vector<2>> x, Four& sum) {
+        sum += Eigen::Map<const Four>(block).cwiseProduct(Four(x[0], x[0], x[1], x[1]));
+    }
+    static void add_product(const double* block, Eigen::Map<const Vector<3>> x, Four& sum) {
+        for (int column = 0; column < 3; ++column)
+            sum += x[column] * Eigen::Map<const Four>(block + 3 * column);
+    }
+    static void fold(const Four& sum, Eigen::Map<Vector<2>> u) {
+        u = sum.head<2>() + sum.tail<2>();
+    }
+    static void fold(const Four& sum, Eigen::Map<Vector<3>> u) { u = sum.head<3>(); }
     // Body space.
     BodyMap<Dim> bodies_;
     mutable Vec v_;
@@ -161,26 +180,13 @@ void ConeSystem<Dim>::multiply(const Vec& r, Vec& u) const {
         bodies_.to_contacts(v_, u);
         return;
     }
-    // Four numbers of a block at a time; for Dim = 3 the fourth belongs to the next column and is
-    // dropped.
-    using Four = Eigen::Vector4d;
-    const auto load = [](const double* x) { return Eigen::Map<const Four>(x); };
     u.resize(q_.size());
     for (std::size_t i = 0; i < contact_count(); ++i) {
         Four sum = Four::Zero();
-        const double* a = value_.data() + Dim * Dim * row_begin_[i];
-        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k, a += Dim * Dim) {
-            const double* const x = r.data() + Dim * column_[k];
-            if constexpr (Dim == 2) {
-                sum += load(a).cwiseProduct(Four(x[0], x[0], x[1], x[1]));
-            } else {
-                sum += x[0] * load(a) + x[1] * load(a + 3) + x[2] * load(a + 6);
-            }
-        }
-        if constexpr (Dim == 2)
-            u.template segment<2>(first(i)) = sum.head<2>() + sum.tail<2>();
-        else
-            u.template segment<3>(first(i)) = sum.head<3>();
+        for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
+            add_product(value_.data() + Dim * Dim * k,
+                        Eigen::Map<const Vector<Dim>>(r.data() + Dim * column_[k]), sum);
+        fold(sum, Eigen::Map<Vector<Dim>>(u.data() + Dim * i));
     }
 }
 
@@ -256,8 +262,7 @@ void ConeSystem<Dim>::analyze() {
     if (in_body_space_) {
         for (std::size_t c = 0; c < contact_count(); ++c)
             for (const auto& a : bodies_.entries(c))
-                for (const auto& b : bodies_.entries(c))
-                    slots_.push_back(lu_.slot(a.body, b.body));
+                for (const auto& b : bodies_.entries(c)) slots_.push_back(lu_.slot(a.body, b.body));
         return;
     }
     for (std::size_t i = 0; i < contact_count(); ++i)

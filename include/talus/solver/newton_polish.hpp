@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/types.hpp>
+#include <talus/solver/central_pair.hpp>
 #include <talus/solver/cone_engine.hpp>
 
 #include <Eigen/Core>
@@ -45,73 +46,6 @@ class NewtonPolish : public ConeEngine<Dim, Law, NewtonPolish<Dim, Law>> {
     using Base = ConeEngine<Dim, Law, NewtonPolish<Dim, Law>>;
     friend Base;
     using Vec = Eigen::VectorXd;
-    using Tangent = Eigen::Matrix<double, Dim - 1, 1>;
-
-    struct Pair {
-        Vector<Dim> r, u;
-        Matrix<Dim> d;  ///< -du/dr along the pairs of this eps
-    };
-
-    /// The pair with r - u = x and complementarity eps.
-    static Pair pair_at(const Vector<Dim>& x, double mu, double eps) {
-        Pair p;
-        p.d.setZero();
-        const double root = std::sqrt(x[0] * x[0] + 4.0 * eps);
-        p.r[0] = x[0] >= 0.0 ? 0.5 * (x[0] + root) : 2.0 * eps / (root - x[0]);
-        p.u[0] = eps / p.r[0];
-        p.d(0, 0) = p.u[0] / p.r[0];
-        const Tangent x_t = x.template tail<Dim - 1>();
-        const double length = x_t.norm(), radius = mu * p.r[0];
-        if (radius == 0.0) {
-            constexpr double rigid = 1e30;
-            p.r.template tail<Dim - 1>().setZero();
-            p.u.template tail<Dim - 1>() = -x_t;
-            p.d.diagonal().template tail<Dim - 1>().setConstant(rigid);
-            return p;
-        }
-        const double depth = depth_in_disc(length, radius, eps);
-        const double reach = radius - depth;  // |r_t|
-        const double room = depth * (radius + reach);
-        const double lambda = eps / room;  // u_t = -lambda r_t
-        const Tangent r_t = length > 0.0 ? Tangent(x_t * (reach / length)) : Tangent::Zero();
-        p.r.template tail<Dim - 1>() = r_t;
-        p.u.template tail<Dim - 1>() = -lambda * r_t;
-        // Beyond `stiff` a number only says that something does not move: larger ones would drown
-        // the others of their block.
-        constexpr double stiff = 1e9;
-        if (p.d(0, 0) > stiff) {
-            p.d.diagonal().setConstant(stiff);
-            return p;
-        }
-        auto block = p.d.template bottomRightCorner<Dim - 1, Dim - 1>();
-        const double wall = 2.0 * lambda / room *
-                            std::min(1.0, stiff * room / (2.0 * lambda * reach * reach + 1e-300));
-        block = wall * r_t * r_t.transpose();
-        block.diagonal().array() += std::min(lambda, stiff);
-        p.d.template bottomLeftCorner<Dim - 1, 1>() = -(wall * radius * mu) * r_t;
-        return p;
-    }
-    /// d in (0, R] with (R - d) (1 + eps / (d (2 R - d))) = length: how far inside the disc r_t
-    /// ends. The left side falls with d; Newton in a bracket.
-    static double depth_in_disc(double length, double radius, double eps) {
-        double low = 0.0, high = radius;
-        double d = length < radius ? radius - length / (1.0 + eps / (radius * radius))
-                                   : radius * eps / (2.0 * radius * (length - radius) + eps);
-        if (!(d > 0.0 && d < radius)) d = 0.5 * radius;
-        for (int k = 0; k < 200; ++k) {
-            const double left = radius - d, w = d * (radius + left);
-            const double f = length * w - left * (w + eps);
-            (f < 0.0 ? low : high) = d;
-            const double slope = 2.0 * left * length + w + eps - 2.0 * left * left;
-            double next = d - f / slope;
-            if (!(next > low && next < high))
-                next = low > 0.0 ? std::sqrt(low * high) : 1e-3 * high;
-            const bool done = std::abs(next - d) <= 4e-16 * d;
-            d = next;
-            if (done) break;
-        }
-        return d;
-    }
 
     /// Pairs at x; error = W r + q - u and the distance to `anchor` for the proximal term.
     void evaluate(const Vec& x, double eps) {
@@ -119,7 +53,8 @@ class NewtonPolish : public ConeEngine<Dim, Law, NewtonPolish<Dim, Law>> {
         pairs_.resize(system.contact_count());
         r_.resize(x.size());
         for (std::size_t c = 0; c < pairs_.size(); ++c) {
-            pairs_[c] = pair_at(x.template segment<Dim>(system.first(c)), system.cone(c).mu, eps);
+            pairs_[c] =
+                central_pair<Dim>(x.template segment<Dim>(system.first(c)), system.cone(c).mu, eps);
             r_.template segment<Dim>(system.first(c)) = pairs_[c].r;
         }
         system.multiply(r_, u_);
@@ -175,7 +110,7 @@ class NewtonPolish : public ConeEngine<Dim, Law, NewtonPolish<Dim, Law>> {
         }
     }
 
-    std::vector<Pair> pairs_;
+    std::vector<CentralPair<Dim>> pairs_;
     std::vector<Matrix<Dim>> d_;
     Vec r_, u_;
 };

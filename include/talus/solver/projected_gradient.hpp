@@ -152,7 +152,11 @@ void ProjectedGradient<Dim, Law>::iterate_spectral(Vec& best) {
     double f = 0.0, alpha = 1.0;
     for (int k = 1; k <= params.max_iterations; ++k) {
         const Step step = projected_step(r_, u_, alpha, d_);
-        if (!std::isfinite(step.square) || step.square == 0.0) return;
+        if (!std::isfinite(step.square)) return;
+        if (step.square == 0.0) {
+            is_over(k, best);
+            return;
+        }
         system.multiply(d_, w_);
         const double curvature = d_.dot(w_);
 
