@@ -228,11 +228,12 @@ const talus::Scene<Dim>& settled(std::size_t contacts, std::uint64_t seed) {
     return scene;
 }
 
-/// The pile of `settled`, brought to rest; made once per size and seed. What keeps that one moving
-/// is the error of its steps, 1e-3, and balls that roll about: steps go on with an error of 1e-6,
-/// and each takes 3 % of all velocities away. Taking half of them makes loose balls roll at less
-/// than a thousandth of a diameter per step, and rest farther away. Ends at a root mean square
-/// speed of 1e-5 g h, or after 1.5 s, where discs still moved at 2e-4 to 7e-4 g h.
+/// The pile of `settled`, brought to rest with a fifth less friction than its problem will have, so
+/// that the forces of rest lie inside the cones and nothing need slip; made once per size and seed.
+/// What keeps that one moving is the error of its steps, 1e-3, and balls that roll about: steps go
+/// on with an error of 1e-6, and each takes 3 % of all velocities away. (Taking half of them makes
+/// loose balls roll at less than a thousandth of a diameter per step, and rest farther away.) Ends
+/// at a root mean square speed of 1e-5 g h, or after 1.5 s.
 template <int Dim>
 const talus::Scene<Dim>& at_rest(std::size_t contacts, std::uint64_t seed) {
     static std::map<std::pair<std::size_t, std::uint64_t>, talus::Scene<Dim>> known;

@@ -22,6 +22,13 @@ RegisteredSolver own(const char* name, const decltype(Solver<2, Law<2>>::params)
     return {name, solve_with<2, Solver<2, Law<2>>>(params),
             solve_with<3, Solver<3, Law<3>>>(params)};
 }
+/// Of those that work on scaled impulses and give them back at the end.
+template <template <int, class> class Solver>
+RegisteredSolver engine(const char* name, const decltype(Solver<2, Law<2>>::params)& params = {}) {
+    RegisteredSolver solver = own<Solver>(name, params);
+    solver.in_place = false;
+    return solver;
+}
 
 }  // namespace
 
@@ -38,13 +45,13 @@ std::vector<RegisteredSolver> own_solvers() {
         own<talus::AcceleratedGaussSeidel>("anderson", {.acceleration = Acceleration::anderson}));
     using talus::GradientStep;
     solvers.push_back(
-        own<talus::ProjectedGradient>("spectral_gradient", {.step = GradientStep::spectral}));
-    solvers.push_back(
-        own<talus::ProjectedGradient>("accelerated_gradient", {.step = GradientStep::accelerated}));
-    solvers.push_back(own<talus::Extragradient>("extragradient"));
-    solvers.push_back(own<talus::Admm>("admm"));
-    solvers.push_back(own<talus::InteriorPoint>("interior_point"));
-    solvers.push_back(own<talus::ProximalNewton>("proximal_newton"));
+        engine<talus::ProjectedGradient>("spectral_gradient", {.step = GradientStep::spectral}));
+    solvers.push_back(engine<talus::ProjectedGradient>("accelerated_gradient",
+                                                       {.step = GradientStep::accelerated}));
+    solvers.push_back(engine<talus::Extragradient>("extragradient"));
+    solvers.push_back(engine<talus::Admm>("admm"));
+    solvers.push_back(engine<talus::InteriorPoint>("interior_point"));
+    solvers.push_back(engine<talus::ProximalNewton>("proximal_newton"));
     return solvers;
 }
 
