@@ -4,7 +4,7 @@
 // pile first settles for 0.3 s; then steps are timed, each to the residual 1e-4, warm (the usual
 // step) and cold (impulses forgotten: a hard solve). Beside the time: contacts, sweeps, contact
 // updates per second of the whole step, the worst residual met, and the bytes that a grain takes in
-// all.
+// all. Then warm steps of piles of spheres that have come to rest, to residuals from 1e-3 to 1e-6.
 #include <talus/sample/granulometry.hpp>
 #include <talus/sample/random_scene.hpp>
 #include <talus/stepping/simulation.hpp>
@@ -16,6 +16,8 @@
 #include <malloc.h>
 #include <map>
 #include <memory>
+
+#include "deposited_pile.hpp"
 
 namespace {
 
@@ -91,6 +93,38 @@ void step(benchmark::State& state) {
     state.counters["bytes/grain"] = pile.bytes_per_grain;
 }
 
+/// Warm steps of a pile at rest to the residual 10^-k.
+template <int Dim>
+void step_at_rest(benchmark::State& state) {
+    using Simulation = talus::Simulation<Dim, talus::Coulomb<Dim>>;
+    static std::map<std::int64_t, std::unique_ptr<Simulation>> piles;
+    auto& sim = piles[state.range(0)];
+    if (!sim) {
+        constexpr std::uint64_t seed = 1;
+        talus::SimulationParams settings;
+        settings.h = bench::step_length;
+        settings.step.scheme = talus::Scheme::gap_anticipating;
+        const auto contacts = static_cast<std::size_t>(Dim * state.range(0));
+        const auto& scene = bench::resting_scene<Dim>(contacts, seed);
+        sim = std::make_unique<Simulation>(bench::boxed(scene, true), settings);
+        sim->solver().params.max_sweeps = 2000;
+        // The first step starts from nothing, and the second from impulses of the same pile.
+        sim->solver().params.tolerance = 1e-6;
+        for (int k = 0; k < 10; ++k) sim->step();
+    }
+    sim->solver().params.tolerance = std::pow(10.0, -static_cast<double>(state.range(1)));
+    sim->step();
+    double sweeps = 0.0, residual = 0.0;
+    for (auto _ : state) {
+        const auto& data = sim->step();
+        sweeps += data.report.iterations;
+        residual = std::max(residual, data.report.residual);
+        state.counters["contacts"] = static_cast<double>(data.contact_count());
+    }
+    state.counters["sweeps"] = benchmark::Counter(sweeps, benchmark::Counter::kAvgIterations);
+    state.counters["residual"] = residual;
+}
+
 BENCHMARK(step<2, true>)->Arg(1000)->Arg(4000)->Arg(14000)->Unit(benchmark::kMillisecond);
 BENCHMARK(step<3, true>)->Arg(1000)->Arg(4000)->Arg(14000)->Unit(benchmark::kMillisecond);
 BENCHMARK(step<2, false>)
@@ -105,6 +139,12 @@ BENCHMARK(step<3, false>)
     ->Arg(14000)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(5);
+
+BENCHMARK(step_at_rest<3>)
+    ->ArgNames({"grains", "digits"})
+    ->ArgsProduct({{4000, 14000}, {3, 4, 6}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(10);
 
 }  // namespace
 
