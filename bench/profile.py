@@ -316,15 +316,31 @@ def page(results):
     return "\n".join(out) + "</html>\n"
 
 
+KEPT = ["name", "run_type", "real_time", "time_unit", "solved", "residual", "residual_siconos", "own_tolerance",
+        "contacts", "iterations", "label", "error_occurred", "error_message"]
+
+
+def compact(report):
+    """The report without what no script reads, numbers to five digits, a run per line."""
+    def short(value):
+        return float(f"{value:.5g}") if isinstance(value, float) else value
+    context = {k: v for k, v in report.get("context", {}).items()
+               if k not in ("executable", "load_avg", "caches", "host_name")}
+    runs = [json.dumps({k: short(run[k]) for k in KEPT if k in run}) for run in report["benchmarks"]]
+    return '{"context": ' + json.dumps(context) + ',\n"benchmarks": [\n' + ",\n".join(runs) + "\n]}\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("results", metavar="RESULTS.json", type=pathlib.Path)
     parser.add_argument("folder", metavar="FOLDER", type=pathlib.Path, help="where the files are written")
     parser.add_argument("--solvers", default="", help="regular expression: only those")
     parser.add_argument("--problems", default="", help="regular expression: only those")
+    parser.add_argument("--store", action="store_true", help="write the results themselves there too, shortened")
     options = parser.parse_args()
     try:
-        results = Results.of(json.loads(options.results.read_text(encoding="utf-8")))
+        report = json.loads(options.results.read_text(encoding="utf-8"))
+        results = Results.of(report)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         print(f"profile.py: {options.results} is no result of bench_solvers: {error}", file=sys.stderr)
         return 2
@@ -337,6 +353,8 @@ def main():
     options.folder.mkdir(parents=True, exist_ok=True)
     for name, text in ("profile.svg", svg(results)), ("profile.html", page(results)), ("profile.txt", plain(results)):
         (options.folder / name).write_text(text, encoding="utf-8")
+    if options.store:
+        (options.folder / "results.json").write_text(compact(report), encoding="utf-8")
     return 0
 
 

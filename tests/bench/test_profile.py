@@ -55,6 +55,11 @@ class Computation(unittest.TestCase):
         self.assertEqual(heights, sorted(heights))
         self.assertEqual(profile.curve(self.ratios("slow"), 100.0)[-1], (100.0, heights[-1]))
 
+    def test_stored_results_say_the_same(self):
+        stored = profile.Results.of(json.loads(profile.compact(REPORT)))
+        self.assertEqual(stored.time, self.results.time)
+        self.assertEqual(stored.context, self.results.context)
+
     def test_total_counts_failures_at_the_limit(self):
         self.assertAlmostEqual(profile.total(self.results, "1e-04", "fast"), 1.0 + 10.0 + 10.0)
 
