@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr int most = 4000;
+constexpr int most = 2000;
 
 /// `make.template operator()<Law>(tolerance)` returns a solver.
 template <int Dim, class Make>
