@@ -336,7 +336,8 @@ def main():
     parser.add_argument("folder", metavar="FOLDER", type=pathlib.Path, help="where the files are written")
     parser.add_argument("--solvers", default="", help="regular expression: only those")
     parser.add_argument("--problems", default="", help="regular expression: only those")
-    parser.add_argument("--store", action="store_true", help="write the results themselves there too, shortened")
+    parser.add_argument("--store", action="store_true",
+                        help="write the results themselves, shortened, instead of the page made of them")
     options = parser.parse_args()
     try:
         report = json.loads(options.results.read_text(encoding="utf-8"))
@@ -351,10 +352,13 @@ def main():
         print(f"profile.py: {options.results} holds no such run", file=sys.stderr)
         return 2
     options.folder.mkdir(parents=True, exist_ok=True)
-    for name, text in ("profile.svg", svg(results)), ("profile.html", page(results)), ("profile.txt", plain(results)):
-        (options.folder / name).write_text(text, encoding="utf-8")
+    files = {"profile.svg": svg(results), "profile.txt": plain(results)}
     if options.store:
-        (options.folder / "results.json").write_text(compact(report), encoding="utf-8")
+        files["results.json"] = compact(report)
+    else:
+        files["profile.html"] = page(results)
+    for name, text in files.items():
+        (options.folder / name).write_text(text, encoding="utf-8")
     return 0
 
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/problem/contact_problem.hpp>
+#include <talus/problem/delassus_product.hpp>
 #include <talus/spatial/local_frame.hpp>
 
 #include <cmath>
@@ -85,4 +86,37 @@ talus::ContactProblem<Dim, Law> twice(const talus::ContactProblem<Dim, Law>& p) 
         q.jacobian.b[i] += bodies;
     }
     return q;
+}
+
+/// A particle per contact stacked on an obstacle, the topmost last: contact i is under body i. The
+/// masses are given from below; the obstacle is the last body.
+template <int Dim, class Law>
+talus::ContactProblem<Dim, Law> stack_of_particles(const std::vector<double>& masses,
+                                                   const Law& law) {
+    talus::ContactProblem<Dim, Law> p;
+    const std::size_t n = masses.size();
+    p.inverse_mass.resize(n + 1);
+    p.jacobian.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        p.inverse_mass.linear[i] = 1.0 / masses[i];
+        p.jacobian.a[i] = static_cast<talus::BodyIndex>(i);
+        p.jacobian.b[i] = static_cast<talus::BodyIndex>(i == 0 ? n : i - 1);
+        p.jacobian.frame[i] = talus::Matrix<Dim>::Identity();
+        p.jacobian.arm_a[i].setZero();
+        p.jacobian.arm_b[i].setZero();
+        p.free_velocity.push_back(talus::Vector<Dim>::Zero());
+        p.laws.push_back(law);
+    }
+    p.inverse_mass.linear[n] = 0.0;
+    for (auto& x : p.inverse_mass.angular) x.setZero();
+    return p;
+}
+
+/// Makes u_free the relative velocity of some motion of the bodies: then u = 0 is within reach and
+/// a solution exists, however many contacts there are [AcaryEtAl2011].
+template <int Dim, class Law>
+void move_bodies_only(talus::ContactProblem<Dim, Law>& p, RandomBlocks& random) {
+    std::vector<talus::Vector<Dim>> s(p.contact_count());
+    for (auto& x : s) x = random.normal<Dim>();
+    talus::DelassusProduct<Dim>(p.jacobian, p.inverse_mass).multiply(s, p.free_velocity);
 }

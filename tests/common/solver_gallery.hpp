@@ -64,14 +64,6 @@ class Gallery {
         talus::DelassusProduct<Dim>(p.jacobian, p.inverse_mass).multiply(r, u);
         return u;
     }
-    /// Makes u_free the relative velocity of some motion of the bodies: then u = 0 is within reach
-    /// and a solution exists, however many contacts there are [AcaryEtAl2011].
-    void move_bodies(Problem& p) {
-        std::vector<Vec> s(p.contact_count());
-        for (Vec& x : s) x = random_.template normal<Dim>();
-        p.free_velocity = product(p, s);
-    }
-
     void random_systems(int k) {
         for (const double mu : {0.0, 0.3, 1.0, 1e3}) {
             // Where mu is huge W_tn must vanish: no catastrophes of friction.
@@ -79,13 +71,13 @@ class Gallery {
             const Kind kind = mu <= 1.0 ? Kind::well_posed : Kind::rough;
             const std::string end = ", mu " + std::to_string(mu) + ", " + std::to_string(k);
             auto p = random_problem(8, 5, arm, mu);
-            move_bodies(p);
+            move_bodies_only(p, random_);
             add("random" + end, kind, p);
             add("random, micrometres" + end, kind, in_other_units(p, 1e6, 1e15, 1e3));
             for (auto& u : p.free_velocity) u.setZero();
             add("random, at rest" + end, Kind::well_posed, p);
             p = random_problem(5, 16, arm, mu);
-            move_bodies(p);
+            move_bodies_only(p, random_);
             add("hyperstatic" + end, Kind::hyperstatic, p);
         }
         // Velocities and impulses of the Painleve range: several solutions or none.
@@ -94,7 +86,7 @@ class Gallery {
         p = random_problem(4, 10, 0.3, 0.8);
         add("any free velocity, " + std::to_string(k), Kind::unknown, p);
         p = random_problem(6, 12, 0.3, 0.5, 1e6);
-        move_bodies(p);
+        move_bodies_only(p, random_);
         add("masses of all sizes, " + std::to_string(k), Kind::solvable, p);
     }
 
@@ -148,7 +140,7 @@ class Gallery {
     /// The same point and normal two and three times.
     void repeated_contacts(int k) {
         auto p = random_problem(8, 5, 0.1, 0.4);
-        move_bodies(p);
+        move_bodies_only(p, random_);
         for (const std::size_t c : {0u, 0u, 3u}) append(p, c);
         add("repeated contacts, " + std::to_string(k), Kind::hyperstatic, p);
         // With different friction.
@@ -169,7 +161,7 @@ class Gallery {
     /// A contact without effective mass beside a common system.
     void between_obstacles(int k) {
         auto p = random_problem(8, 5, 0.1, 0.3);
-        move_bodies(p);
+        move_bodies_only(p, random_);
         p.inverse_mass.linear.push_back(0.0);
         p.inverse_mass.angular.push_back(p.inverse_mass.angular[0]);
         p.inverse_mass.angular.back().setZero();
@@ -229,22 +221,7 @@ class Gallery {
     }
 
     Problem tower(const std::vector<double>& masses, double mu) const {
-        Problem p;
-        const std::size_t n = masses.size();
-        p.inverse_mass.resize(n + 1);
-        p.jacobian.resize(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            p.inverse_mass.linear[i] = 1.0 / masses[i];
-            p.jacobian.a[i] = static_cast<talus::BodyIndex>(i);
-            p.jacobian.b[i] = static_cast<talus::BodyIndex>(i == 0 ? n : i - 1);
-            p.jacobian.frame[i].setIdentity();
-            p.jacobian.arm_a[i].setZero();
-            p.jacobian.arm_b[i].setZero();
-            p.free_velocity.push_back(Vec::Zero());
-            p.laws.push_back({mu});
-        }
-        p.inverse_mass.linear[n] = 0.0;
-        for (auto& x : p.inverse_mass.angular) x.setZero();
+        Problem p = stack_of_particles<Dim>(masses, Law{mu});
         p.free_velocity[0] = 0.1 * Vec::Unit(1) - Vec::Unit(0);
         return p;
     }

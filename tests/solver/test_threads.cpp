@@ -2,7 +2,6 @@
 // Compiled with OpenMP, with which Eigen shares large products among threads unless it is kept from
 // that: the bits of a solve must not depend on the number of threads.
 #include <talus/law/coulomb.hpp>
-#include <talus/problem/delassus_product.hpp>
 #include <talus/solver/automatic.hpp>
 #include <talus/solver/interior_point.hpp>
 
@@ -32,9 +31,7 @@ Problem<Dim> entangled() {
     auto p =
         RandomProblem<Dim, talus::Coulomb<Dim>>{.bodies = 300, .contacts = 1500, .arm = 0.1}.make(
             random, {0.3});
-    Impulses<Dim> s(p.contact_count());
-    for (auto& x : s) x = random.normal<Dim>();
-    talus::DelassusProduct<Dim>(p.jacobian, p.inverse_mass).multiply(s, p.free_velocity);
+    move_bodies_only<Dim>(p, random);
     return p;
 }
 

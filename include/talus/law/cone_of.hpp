@@ -6,6 +6,8 @@
 
 #include <concepts>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace talus {
 
@@ -24,6 +26,20 @@ requires SpaceDimension<Dim> std::optional<FrictionCone<Dim>> cone_of(const Law&
         return law.friction_cone();
     else
         return std::nullopt;
+}
+
+/// The cones of laws, in their order; nothing if one of them has none.
+template <int Dim, ContactLaw<Dim> Law>
+requires SpaceDimension<Dim> std::optional<std::vector<FrictionCone<Dim>>> cones_of(
+    std::span<const Law> laws) {
+    std::vector<FrictionCone<Dim>> cones;
+    cones.reserve(laws.size());
+    for (const Law& law : laws) {
+        const std::optional<FrictionCone<Dim>> cone = cone_of<Dim>(law);
+        if (!cone) return std::nullopt;
+        cones.push_back(*cone);
+    }
+    return cones;
 }
 
 }  // namespace talus

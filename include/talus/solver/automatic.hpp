@@ -2,7 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
-#include <talus/law/signorini.hpp>
+#include <talus/law/cone_of.hpp>
 #include <talus/solver/accelerated_gauss_seidel.hpp>
 #include <talus/solver/gauss_seidel.hpp>
 #include <talus/solver/interior_point.hpp>
@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -112,9 +111,10 @@ class Automatic {
             report_.history.push_back({report_.iterations, report_.residual});
         if (report_.status != SolveStatus::converged) return report_;
         measure_.prepare(w);
-        if (run_away(free_velocity, r) && take_cones(laws)) {
-            for (FrictionCone<Dim>& cone : cones_) cone.mu = 0.0;
-            system_.assign(source(), free_velocity, std::move(cones_), measure_);
+        if (!run_away(free_velocity, r)) return report_;
+        if (auto cones = cones_of<Dim>(laws)) {
+            for (FrictionCone<Dim>& cone : *cones) cone.mu = 0.0;
+            system_.assign(source(), free_velocity, std::move(*cones), measure_);
             if (certificate_.by_sweeps(w, free_velocity, system_) ||
                 certificate_.by_newton(polish_, system_))
                 report_.status = SolveStatus::no_solution;
@@ -261,21 +261,13 @@ class Automatic {
     template <class W, class Source>
     bool take_factors(const W& w, std::span<const Vector<Dim>> free_velocity,
                       std::span<const Law> laws, Source&& source) {
-        if (params.max_factorizations == 0 || !take_cones(laws)) return false;
+        if (params.max_factorizations == 0) return false;
+        auto cones = cones_of<Dim>(laws);
+        if (!cones) return false;
         measure_.prepare(w);
-        system_.assign(source(), free_velocity, std::move(cones_), measure_);
+        system_.assign(source(), free_velocity, std::move(*cones), measure_);
         return system_.factorization_bytes() <= params.max_factor_bytes;
     }
-    bool take_cones(std::span<const Law> laws) {
-        cones_.clear();
-        for (const Law& law : laws) {
-            const std::optional<FrictionCone<Dim>> cone = cone_of<Dim>(law);
-            if (!cone) return false;
-            cones_.push_back(*cone);
-        }
-        return true;
-    }
-
     void start_factors(std::span<const Vector<Dim>> r) {
         system_.to_scaled(r, scaled_);
         factor_residual_ = report_.residual;
@@ -343,7 +335,6 @@ class Automatic {
     DelassusProduct<Dim, double> scalar_product_;
     System system_;
     ResidualMeasure<Dim> measure_;
-    std::vector<FrictionCone<Dim>> cones_;
     std::vector<Vector<Dim>> kept_, velocity_;
     OverlapCertificate<Dim> certificate_;
     Eigen::VectorXd scaled_;

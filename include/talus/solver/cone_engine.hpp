@@ -107,13 +107,9 @@ class ConeEngine {
             return report_;
         }
         report_.status = SolveStatus::stalled;
-        std::vector<FrictionCone<Dim>> cones;
-        for (const Law& law : laws) {
-            const std::optional<FrictionCone<Dim>> cone = cone_of<Dim>(law);
-            if (!cone) return report_;
-            cones.push_back(*cone);
-        }
-        system_.assign(source(), free_velocity, std::move(cones), measure_);
+        auto cones = cones_of<Dim>(laws);
+        if (!cones) return report_;
+        system_.assign(source(), free_velocity, std::move(*cones), measure_);
         best_residual_ = begin;
         Eigen::VectorXd best;
         system_.to_scaled(r, best);

@@ -76,17 +76,13 @@ class Enumeration : public ConeEngine<Dim, Law, Enumeration<Dim, Law>> {
                                            std::span<const Law> laws) {
         solutions_.clear();
         complete_ = false;
-        std::vector<FrictionCone<Dim>> cones;
-        for (const Law& law : laws) {
-            const std::optional<FrictionCone<Dim>> cone = cone_of<Dim>(law);
-            if (!cone) return solutions_;
-            cones.push_back(*cone);
-        }
+        auto cones = cones_of<Dim>(laws);
+        if (!cones) return solutions_;
         require_in("number of contacts", static_cast<double>(laws.size()), 0,
                    static_cast<double>(max_contacts));
         ResidualMeasure<Dim> measure;
         measure.prepare(w);
-        this->system_.assign(w, free_velocity, std::move(cones), measure);
+        this->system_.assign(w, free_velocity, std::move(*cones), measure);
         find_all();
         return solutions_;
     }
