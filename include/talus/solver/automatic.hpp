@@ -8,6 +8,8 @@
 #include <talus/solver/interior_point.hpp>
 #include <talus/solver/newton_polish.hpp>
 #include <talus/solver/overlap_certificate.hpp>
+#include <talus/solver/projected_gradient.hpp>
+#include <talus/solver/proximal_newton.hpp>
 
 #include <Eigen/Core>
 
@@ -15,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -25,12 +28,13 @@ namespace talus {
 struct AutomaticParams {
     /// On the residual of problem/residual.hpp [-].
     double tolerance = 1e-8;
-    /// Sweeps allowed in all, a double sweep counting as two [-], not negative.
+    /// Sweeps allowed in all [-], not negative. A double sweep counts as two, a product with W in a
+    /// gradient method as one.
     int max_sweeps = 40000;
-    /// Factorisations allowed in all [-], not negative. 0 leaves everything to sweeps.
-    int max_factorizations = 120;
+    /// Factorisations allowed in all [-], not negative. 0 leaves everything to methods without.
+    int max_factorizations = 1000;
     /// Memory that the factors may take [bytes], not negative. A problem that needs more is left to
-    /// sweeps.
+    /// methods without.
     double max_factor_bytes = 2e9;
 };
 
@@ -41,15 +45,19 @@ struct AutomaticParams {
 ///                    promises an end before that of a factorising engine;
 ///   newton_polish    once the residual is small, where a factor is cheap beside sweeps to come;
 ///   interior_point   for what sweeps do not finish, followed by newton_polish again;
-///   anderson, nesterov  for the rest of the sweeps, if there is still something to do.
+///
+/// then, for what is left, rounds of ever longer turns: interior_point from other margins or
+/// proximal_newton, an accelerator, spectral_gradient and accelerated_gradient. Packings that flow
+/// have no potential that all these would descend, and which of them gets through cannot be told
+/// beforehand; each begins where the last one ended. The best impulses met are returned.
 ///
 /// Costs are counted in visits of contacts, from the structure of the problem and never by a clock:
 /// the same input takes the same way on any machine, to the bit. Engines that treat all contacts at
 /// once need laws with a cone (law/cone_of.hpp); with others sweeps do everything.
 ///
 /// The report's `stages` tell who did what; `iterations` counts those of all engines. `no_solution`
-/// is reported where sweeps end with a certificate: normal impulses that move nothing and yet would
-/// gain energy from the prescribed motion, so that no motion separates all contacts.
+/// is reported where there is a certificate: normal impulses that move nothing and yet would gain
+/// energy from the prescribed motion, so that no motion separates all contacts.
 template <int Dim, ContactLaw<Dim> Law>
 class Automatic {
   public:
@@ -89,6 +97,16 @@ class Automatic {
 
   private:
     using System = ConeSystem<Dim>;
+    /// The problem of a solve and its impulses; source() gives what a ConeSystem takes of W.
+    template <class W, class Source>
+    struct Task {
+        W& w;
+        std::span<const Vector<Dim>> free_velocity;
+        std::span<const Law> laws;
+        std::span<Vector<Dim>> r;
+        double visits;  ///< of contacts in a sweep
+        Source source;
+    };
 
     /// A sweep of an assembled W costs its blocks, of which five are one visit of a contact.
     static double visits_of(const DelassusSparse<Dim>& w) {
@@ -99,123 +117,124 @@ class Automatic {
     template <class W, class Source>
     const SolveReport& run(W& w, std::span<const Vector<Dim>> free_velocity,
                            std::span<const Law> laws, std::span<Vector<Dim>> r, double visits,
-                           Source&& source) {
+                           Source source) {
         require_non_negative("tolerance", params.tolerance);
         require_non_negative("max_sweeps", params.max_sweeps);
         require_non_negative("max_factorizations", params.max_factorizations);
         require_non_negative("max_factor_bytes", params.max_factor_bytes);
         report_ = {};
-        let_engines_work(w, free_velocity, laws, r, visits, source);
+        Task<W, Source> task{w, free_velocity, laws, r, visits, source};
+        let_engines_work(task);
+        if (report_.status != SolveStatus::not_finite) return_to_best(r);
         // An engine that gained nothing leaves samples of what it tried at the end.
         if (report_.history.back().residual != report_.residual)
             report_.history.push_back({report_.iterations, report_.residual});
-        if (report_.status != SolveStatus::converged) return report_;
-        measure_.prepare(w);
-        if (!run_away(free_velocity, r)) return report_;
-        if (auto cones = cones_of<Dim>(laws)) {
-            for (FrictionCone<Dim>& cone : *cones) cone.mu = 0.0;
-            system_.assign(source(), free_velocity, std::move(*cones), measure_);
-            if (certificate_.by_sweeps(w, free_velocity, system_) ||
-                certificate_.by_newton(polish_, system_))
-                report_.status = SolveStatus::no_solution;
-        }
         return report_;
     }
 
-    template <class W, class Source>
-    const SolveReport& let_engines_work(W& w, std::span<const Vector<Dim>> free_velocity,
-                                        std::span<const Law> laws, std::span<Vector<Dim>> r,
-                                        double visits, Source&& source) {
+    template <class T>
+    void let_engines_work(T& task) {
         sweeps_left_ = params.max_sweeps;
+        factorizations_left_ = params.max_factorizations;
         passes_ = 0;
+        best_residual_ = std::numeric_limits<double>::infinity();
         constexpr double untried = 1e9;
         speed_ = {2.0 * untried, untried};
+        polished_at_ = untried;
         constexpr int first_sweeps = 6, first_passes = 15;
-        sweep(w, free_velocity, laws, r, first_sweeps);
-        if (finished()) return report_;
-        if (accelerate(w, free_velocity, laws, r, first_passes)) return report_;
+        if (sweep(task, first_sweeps) || accelerate(task, first_passes)) return;
         while (ends_soon())
-            if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
-
-        if (!take_factors(w, free_velocity, laws, source)) {
-            while (accelerate_on(w, free_velocity, laws, r, 2 * last_passes_)) {
+            if (accelerate(task, 2 * last_passes_)) return;
+        if (!take_system(task)) {
+            while (!accelerate(task, 2 * last_passes_)) {
             }
-            return report_;
+            return;
         }
         // Double sweeps that cost as much as an interior-point solve, about.
-        constexpr double usual_factorizations = 15.0, cost_of_pass = 2.6;
-        const double worth =
-            usual_factorizations * system_.factorization_cost() / (cost_of_pass * visits);
+        constexpr double usual_factorizations = 15.0, most = 4000.0;
+        double worth = usual_factorizations * passes_per_factorization_;
         // Sweeps go on while they promise an end soon, and at least for a quarter of that cost.
         while (sweeps_left_ > 1 && (passes_ < 0.25 * worth ||
                                     passes_to_go(std::max(speed_[0], speed_[1])) < 0.5 * worth))
-            if (accelerate(w, free_velocity, laws, r, 2 * last_passes_)) return report_;
-        factorizations_left_ = params.max_factorizations;
-        for (const double margin : {0.1, 1.0, 0.01}) {
-            if (factorizations_left_ == 0) break;
-            if (factorize_all(w, free_velocity, laws, r, margin)) return report_;
-            if (certificate_.by_sweeps(w, free_velocity, system_)) {
-                report_.status = SolveStatus::no_solution;
-                return report_;
+            if (accelerate(task, 2 * last_passes_)) return;
+        worth = std::clamp(worth, 20.0, most);
+        for (int round = 0; play(task, round, worth); ++round)
+            if (round > 2) worth = std::min(2.0 * worth, most);
+    }
+
+    /// A turn of the engines. False if the solve is over.
+    template <class T>
+    bool play(T& task, int round, double worth) {
+        constexpr std::array margins{0.1, 1.0, 0.01};
+        const bool interior = round < static_cast<int>(margins.size());
+        if (factorizations_left_ > 0) {
+            start_cone_engines(task);
+            polish_where_new(8);
+            if (interior) {
+                interior_.params.margin = margins[static_cast<std::size_t>(round)];
+                factorize("interior_point", interior_, 60);
+            } else {
+                factorize("proximal_newton", proximal_,
+                          std::max(60, static_cast<int>(worth / passes_per_factorization_)));
             }
-            constexpr double most = 1e6;
-            if (!accelerate_on(w, free_velocity, laws, r,
-                               static_cast<int>(std::clamp(worth, 20.0, most))))
-                return report_;
+            polish(20);
+            if (take_over(task)) return false;
+            if (proximal_.report().status == SolveStatus::no_solution ||
+                (interior && certificate_.by_sweeps(task.w, task.free_velocity, system_))) {
+                report_.status = SolveStatus::no_solution;
+                return false;
+            }
         }
-        while (accelerate_on(w, free_velocity, laws, r, 2 * last_passes_)) {
-            constexpr double clear = 0.03;  // of the residual where statuses were not settled yet
-            if (factorizations_left_ == 0 || report_.residual > clear * polished_at_) continue;
-            start_factors(r);
-            if (polish(8) && take_over(w, free_velocity, laws, r)) return report_;
-        }
-        return report_;
+        const int turn = static_cast<int>(worth);
+        if (accelerate(task, turn)) return false;
+        return interior || (!descend(task, GradientStep::spectral, turn) &&
+                            !descend(task, GradientStep::accelerated, turn));
     }
 
-    /// Polish, interior point, polish. True if the solve is over.
-    template <class W>
-    bool factorize_all(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
-                       std::span<Vector<Dim>> r, double margin) {
-        start_factors(r);
-        constexpr double settled = 1e-2;
-        if (report_.residual < settled) polish(8);
-        if (factor_residual_ > params.tolerance) {
-            interior_.params.margin = margin;
-            factorize("interior_point", interior_, 60);
-            if (factor_residual_ > params.tolerance) polish(20);
-        }
-        return take_over(w, free_velocity, laws, r);
-    }
-
-    bool finished() const {
-        return report_.status == SolveStatus::converged ||
-               report_.status == SolveStatus::not_finite;
-    }
-
-    void note(std::string_view engine, const SolveReport& part) {
+    void note(std::string_view engine, const SolveReport& part, double residual) {
         const int before = report_.iterations;
         for (const ResidualSample& s : part.history)
             report_.history.push_back({before + s.iteration, s.residual});
         report_.iterations += part.iterations;
-        report_.status = part.status;
-        report_.residual = part.residual;
-        report_.stages.push_back({engine, part.iterations, part.residual});
+        report_.stages.push_back({engine, part.iterations, residual});
+    }
+    /// Before an engine that may leave worse impulses than it was given.
+    void keep(std::span<const Vector<Dim>> r) {
+        kept_.assign(r.begin(), r.end());
+        kept_residual_ = report_.residual;
+        if (report_.iterations == 0 || kept_residual_ >= best_residual_) return;
+        best_ = kept_;
+        best_residual_ = kept_residual_;
     }
 
-    template <class W>
-    void sweep(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
-               std::span<Vector<Dim>> r, int sweeps) {
+    void return_to_best(std::span<Vector<Dim>> r) {
+        if (!(best_residual_ < report_.residual)) return;
+        std::copy(best_.begin(), best_.end(), r.begin());
+        report_.residual = best_residual_;
+    }
+
+    // Sweeps. All return true if the solve is over.
+
+    template <class T>
+    bool sweep(T& task, int sweeps) {
         gauss_seidel_.params = {.max_sweeps = std::min(sweeps, sweeps_left_),
                                 .tolerance = params.tolerance};
-        note("gauss_seidel", gauss_seidel_.solve(w, free_velocity, laws, r));
-        sweeps_left_ -= gauss_seidel_.report().iterations;
+        return sweep_with("gauss_seidel", gauss_seidel_, task, 1);
     }
-
-    /// True if the solve is over.
-    template <class W>
-    bool accelerate(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
-                    std::span<Vector<Dim>> r, int passes) {
-        last_passes_ = std::min(passes, sweeps_left_ / 2);
+    template <class Engine, class T>
+    bool sweep_with(std::string_view name, Engine& engine, T& task, int sweeps) {
+        keep(task.r);
+        const SolveReport& part = engine.solve(task.w, task.free_velocity, task.laws, task.r);
+        note(name, part, part.residual);
+        report_.status = part.status;
+        report_.residual = part.residual;
+        sweeps_left_ -= sweeps * part.iterations;
+        return is_over(task);
+    }
+    template <class T>
+    bool accelerate(T& task, int passes) {
+        constexpr int longest = 4000;
+        last_passes_ = std::min({passes, longest, sweeps_left_ / 2});
         if (last_passes_ == 0) return true;
         // The accelerator that gained more per pass when it was last used; both are tried first,
         // unless one is about to be done.
@@ -226,25 +245,17 @@ class Automatic {
             .max_iterations = last_passes_,
             .tolerance = params.tolerance,
             .acceleration = momentum ? Acceleration::nesterov : Acceleration::anderson};
-        note(momentum ? "nesterov" : "anderson", accelerated_.solve(w, free_velocity, laws, r));
+        const bool over = sweep_with(momentum ? "nesterov" : "anderson", accelerated_, task, 2);
         const int done = accelerated_.report().iterations;
         speed_[momentum] = done > 0 ? std::log(before / report_.residual) / done : 0.0;
-        sweeps_left_ -= 2 * done;
         passes_ += done;
-        if (finished()) return true;
+        if (over) return true;
         // It ended before its time: nothing moves any more, and no sweep will change that.
         if (done < last_passes_) {
             report_.status = SolveStatus::stalled;
             sweeps_left_ = 0;
         }
         return false;
-    }
-    /// The same, the other way round.
-    template <class W>
-    bool accelerate_on(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
-                       std::span<Vector<Dim>> r, int passes) {
-        constexpr int longest = 4000;
-        return !accelerate(w, free_velocity, laws, r, std::min(passes, longest));
     }
     /// Double sweeps that the tolerance will take at a rate.
     double passes_to_go(double speed) const {
@@ -257,94 +268,133 @@ class Automatic {
         return passes_ > 0 && sweeps_left_ > 1 && passes_to_go(speed_[last_used_]) <= last_passes_;
     }
 
-    /// The problem for the factorising engines. False if they may not or cannot work on it.
-    template <class W, class Source>
-    bool take_factors(const W& w, std::span<const Vector<Dim>> free_velocity,
-                      std::span<const Law> laws, Source&& source) {
+    // Engines that treat all contacts at once.
+
+    /// The problem for them. False if there are laws that they cannot work on.
+    template <class T>
+    bool take_system(T& task) {
         if (params.max_factorizations == 0) return false;
-        auto cones = cones_of<Dim>(laws);
+        auto cones = cones_of<Dim>(task.laws);
         if (!cones) return false;
-        measure_.prepare(w);
-        system_.assign(source(), free_velocity, std::move(*cones), measure_);
-        return system_.factorization_bytes() <= params.max_factor_bytes;
+        measure_.prepare(task.w);
+        system_.assign(task.source(), task.free_velocity, std::move(*cones), measure_);
+        constexpr double cost_of_pass = 2.6;  // visits of each contact
+        passes_per_factorization_ = system_.factorization_cost() / (cost_of_pass * task.visits);
+        if (system_.factorization_bytes() > params.max_factor_bytes) factorizations_left_ = 0;
+        return true;
     }
-    void start_factors(std::span<const Vector<Dim>> r) {
-        system_.to_scaled(r, scaled_);
-        factor_residual_ = report_.residual;
+    template <class T>
+    void start_cone_engines(T& task) {
+        system_.to_scaled(task.r, scaled_);
+        scaled_residual_ = report_.residual;
     }
-    bool polish(int at_most) {
-        polished_at_ = factor_residual_;
-        factorize("newton_polish", polish_, at_most);
-        return factor_residual_ < polished_at_;
+    template <class Engine>
+    void improve(std::string_view name, Engine& engine, int at_most) {
+        engine.params.tolerance = params.tolerance;
+        engine.params.max_iterations = at_most;
+        scaled_residual_ = engine.improve(system_, scaled_, scaled_residual_);
+        note(name, engine.report(), scaled_residual_);
     }
     template <class Engine>
     void factorize(std::string_view name, Engine& engine, int at_most) {
-        engine.params.tolerance = params.tolerance;
-        engine.params.max_iterations = std::min(at_most, factorizations_left_);
-        if (engine.params.max_iterations == 0) return;
-        factor_residual_ = engine.improve(system_, scaled_, factor_residual_);
+        at_most = std::min(at_most, factorizations_left_);
+        if (at_most == 0 || scaled_residual_ <= params.tolerance) return;
+        improve(name, engine, at_most);
         factorizations_left_ -= engine.report().iterations;
-        for (const ResidualSample& s : engine.report().history)
-            report_.history.push_back({report_.iterations + s.iteration, s.residual});
-        report_.iterations += engine.report().iterations;
-        report_.stages.push_back({name, engine.report().iterations, factor_residual_});
     }
-
-    /// Impulses that run away make any residual small: large ones must show that they may be.
-    static constexpr double suspicious = 1e5;
-    bool runs_away() const { return scaled_.norm() > suspicious * system_.free_velocity().norm(); }
-    bool run_away(std::span<const Vector<Dim>> free_velocity, std::span<const Vector<Dim>> r) {
-        velocity_.assign(r.size(), Vector<Dim>::Zero());
-        return measure_.scale(velocity_, r) > suspicious * measure_.scale(free_velocity, velocity_);
+    void polish(int at_most) {
+        polished_at_ = scaled_residual_;
+        factorize("newton_polish", polish_, at_most);
     }
-    /// Takes the impulses of the factorising engines if they are better by the one measure.
-    template <class W>
-    bool take_over(W& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
-                   std::span<Vector<Dim>> r) {
-        kept_.assign(r.begin(), r.end());
-        system_.to_impulses(scaled_, r);
-        velocity_.resize(r.size());
-        w.multiply(r, velocity_);
+    /// Near a solution, and where the last polish has not been already.
+    void polish_where_new(int at_most) {
+        constexpr double settled = 1e-2, clear = 0.03;
+        if (scaled_residual_ < std::min(settled, clear * polished_at_)) polish(at_most);
+    }
+    template <class T>
+    bool descend(T& task, GradientStep step, int products) {
+        products = std::min(products, sweeps_left_);
+        if (products == 0) return true;
+        start_cone_engines(task);
+        gradient_.params.step = step;
+        improve(step == GradientStep::spectral ? "spectral_gradient" : "accelerated_gradient",
+                gradient_, products);
+        sweeps_left_ -= gradient_.report().iterations;
+        return take_over(task);
+    }
+    /// Takes the impulses of these engines if they are better by the one measure. True if the solve
+    /// is over.
+    template <class T>
+    bool take_over(T& task) {
+        keep(task.r);
+        system_.to_impulses(scaled_, task.r);
+        velocity_.resize(task.r.size());
+        task.w.multiply(task.r, velocity_);
         const double residual =
             measure_
-                .template evaluate<Law>(free_velocity, laws, r,
+                .template evaluate<Law>(task.free_velocity, task.laws, task.r,
                                         [&](std::size_t i) { return velocity_[i]; })
                 .relative;
-        if (!(residual <= report_.residual)) {
-            std::copy(kept_.begin(), kept_.end(), r.begin());
-        } else if (residual <= params.tolerance && runs_away() &&
-                   certificate_.by_sweeps(w, free_velocity, system_)) {
-            std::copy(kept_.begin(), kept_.end(), r.begin());
-            report_.history.push_back({report_.iterations, report_.residual});
-            report_.status = SolveStatus::no_solution;
-            return true;
-        } else {
+        if (residual <= report_.residual)
             report_.residual = residual;
-        }
+        else
+            std::copy(kept_.begin(), kept_.end(), task.r.begin());
         report_.history.push_back({report_.iterations, report_.residual});
-        if (report_.residual > params.tolerance) return false;
-        report_.status = SolveStatus::converged;
+        if (report_.residual <= params.tolerance) report_.status = SolveStatus::converged;
+        return is_over(task);
+    }
+
+    /// Whether the engine that has just worked ended the solve. Impulses that run away make any
+    /// residual small: large ones must show that they may be, or those kept before them return.
+    template <class T>
+    bool is_over(T& task) {
+        if (report_.status == SolveStatus::not_finite) return true;
+        if (report_.status != SolveStatus::converged) return false;
+        if (runs_away(task) && cannot_separate(task)) {
+            std::copy(kept_.begin(), kept_.end(), task.r.begin());
+            report_.residual = kept_residual_;
+            report_.status = SolveStatus::no_solution;
+        }
         return true;
+    }
+    template <class T>
+    bool runs_away(T& task) {
+        constexpr double suspicious = 1e5;
+        measure_.prepare(task.w);
+        velocity_.assign(task.r.size(), Vector<Dim>::Zero());
+        return measure_.scale(velocity_, task.r) >
+               suspicious * measure_.scale(task.free_velocity, velocity_);
+    }
+    template <class T>
+    bool cannot_separate(T& task) {
+        auto cones = cones_of<Dim>(task.laws);
+        if (!cones) return false;
+        for (FrictionCone<Dim>& cone : *cones) cone.mu = 0.0;
+        system_.assign(task.source(), task.free_velocity, std::move(*cones), measure_);
+        return certificate_.by_sweeps(task.w, task.free_velocity, system_) ||
+               certificate_.by_newton(polish_, system_);
     }
 
     GaussSeidel<Dim, Law> gauss_seidel_;
     AcceleratedGaussSeidel<Dim, Law> accelerated_;
     InteriorPoint<Dim, Law> interior_;
     NewtonPolish<Dim, Law> polish_;
+    ProximalNewton<Dim, Law> proximal_;
+    ProjectedGradient<Dim, Law> gradient_;
     DelassusProduct<Dim> product_;
     DelassusProduct<Dim, double> scalar_product_;
     System system_;
     ResidualMeasure<Dim> measure_;
-    std::vector<Vector<Dim>> kept_, velocity_;
+    std::vector<Vector<Dim>> kept_, best_, velocity_;
     OverlapCertificate<Dim> certificate_;
     Eigen::VectorXd scaled_;
     SolveReport report_;
-    int sweeps_left_ = 0, last_passes_ = 0;
-    int factorizations_left_ = 0;
-    int passes_ = 0;
+    int sweeps_left_ = 0, factorizations_left_ = 0;
+    int last_passes_ = 0, passes_ = 0;
     std::array<double, 2> speed_{};  ///< digits (natural) per pass: anderson, nesterov
     std::size_t last_used_ = 0;      ///< index into speed_
-    double factor_residual_ = 0.0, polished_at_ = 0.0;
+    double passes_per_factorization_ = 0.0;
+    double kept_residual_ = 0.0, best_residual_ = 0.0, scaled_residual_ = 0.0, polished_at_ = 0.0;
 };
 
 }  // namespace talus
