@@ -47,7 +47,8 @@ class VertexSeparator {
     void improve(int passes);
 
   private:
-    /// A side may weigh this much over half the graph. Even sides matter less than thin separators.
+    /// A side may weigh this many halves of the graph. Measured on packings and lattices: 1.2 makes
+    /// 7 % more operations, 1.4 makes 4 % more.
     static constexpr double balance = 1.3;
     struct Candidate {
         std::int64_t gain;
@@ -210,7 +211,7 @@ inline VertexSeparator VertexSeparator::grown(const NodeGraph& graph, int seeds)
 /// grown in the coarsest of a row of graphs, improved in each finer one [KarypisKumar1998]. The
 /// best of several attempts, which differ in how the graph is made coarser.
 inline std::vector<int> vertex_separator(const NodeGraph& graph, int attempts) {
-    // Measured on packings and lattices: 80 nodes in the coarsest graph make 10 % more operations.
+    // Measured on packings and lattices: 80 nodes in the coarsest graph make 8 % more operations.
     constexpr int coarsest = 30, seeds = 12, passes = 8;
     const std::int64_t heaviest = 3 * graph.total_weight() / (2 * coarsest) + 1;
     std::vector<int> best;
