@@ -17,9 +17,10 @@
 namespace talus {
 
 /// LU factors of a sparse matrix made of blocks, whose pattern (not its values) is symmetric: the
-/// multifrontal method [DuffReid1983] on the graph of blocks, ordered by approximate minimum degree
-/// [AmestoyDavisDuff1996]. Rows are exchanged within the pivot block of a front only, which is
-/// enough for matrices whose symmetric part is positive definite and in practice for those near.
+/// multifrontal method [DuffReid1983] on the graph of blocks, ordered by minimum degree or nested
+/// dissection (FrontalPlan::Ordering). Rows are exchanged within the pivot block of a front only,
+/// which is enough for matrices whose symmetric part is positive definite and in practice for those
+/// near.
 ///
 /// `analyze` once per pattern; then `set_zero`, add to `block(slot(i, j))`, `factorize` and `solve`
 /// as often as values change. Cost for the contacts of n bodies: in the plane n^1.5 operations and
@@ -31,8 +32,9 @@ class BlockLu {
 
     /// Plans the factorisation of a pattern: see FrontalPlan::analyze. Takes no memory for numbers
     /// yet.
-    void analyze(std::span<const int> node_size, std::span<const std::pair<int, int>> edges) {
-        plan_.analyze(node_size, edges);
+    void analyze(std::span<const int> node_size, std::span<const std::pair<int, int>> edges,
+                 FrontalPlan::Ordering ordering = FrontalPlan::Ordering::better) {
+        plan_.analyze(node_size, edges, ordering);
         values_.clear();
     }
 
