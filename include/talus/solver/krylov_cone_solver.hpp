@@ -25,6 +25,8 @@ namespace talus {
 /// whose matrix has a block per body; a residual s there is B^T s in contact space. Where D is so
 /// small that rounding hides it, the rest of the path is iterated in contact space, preconditioned
 /// by the same formula with a D that is not smaller than rounding allows: three times as dear.
+/// Before that, the incomplete factors (not the products) see a D with less coupling of normal and
+/// tangent where contacts slip: in large systems those of D itself break down.
 template <int Dim>
 class KrylovConeSolver {
   public:
@@ -61,6 +63,8 @@ class KrylovConeSolver {
     };
     void cut_up(const BodyMap<Dim>& map);
     bool factorize(const ConeSystem<Dim>& system);
+    void add(std::size_t c, const Small& inverse);
+    static bool temper(Small& d);
     void to_bodies(const Vec& e, Vec& v) const;
     void from_bodies(const Vec& v, Vec& e) const;
     void multiply(const ConeSystem<Dim>& system, const Vec& x, Vec& y) const;
@@ -78,6 +82,7 @@ class KrylovConeSolver {
     BlockIlu<Dim> contact_matrix_;
     std::vector<std::size_t> slot_begin_, slots_;  ///< of what each contact adds to the matrix
     std::vector<Small> d_, d_inverse_;
+    std::vector<std::pair<std::size_t, Small>> tempered_;  ///< inverses that the factors see
     Bicgstab bicgstab_;
     bool rounding_ = false;  ///< has been met in body space
     Vec error_, right_, y_, start_;
@@ -180,20 +185,45 @@ bool KrylovConeSolver<Dim>::factorize(const ConeSystem<Dim>& system) {
     body_matrix_.set_zero();
     for (int k = 0; k < nodes_; ++k) body_matrix_.block(body_matrix_.slot(k, k)).setIdentity();
     d_inverse_.resize(d_.size());
+    tempered_.clear();
     for (std::size_t c = 0; c < d_.size(); ++c) {
         // W has the trace Dim at each contact.
         constexpr double least = 1e-8;
         Small seen = d_[c];
         if (rounding_) seen.diagonal().array() += least;
         d_inverse_[c] = seen.inverse();
-        std::size_t slot = slot_begin_[c];
-        for (std::size_t i = piece_begin_[c]; i < piece_begin_[c + 1]; ++i) {
-            const Piece left = piece_[i] * d_inverse_[c];
-            for (std::size_t j = piece_begin_[c]; j < piece_begin_[c + 1]; ++j)
-                body_matrix_.block(slots_[slot++]).noalias() += left * piece_[j].transpose();
-        }
+        if (!rounding_ && temper(seen))
+            tempered_.emplace_back(c, seen.inverse());
+        else
+            add(c, d_inverse_[c]);
     }
-    return body_matrix_.factorize();
+    for (const auto& [c, inverse] : tempered_) add(c, inverse);
+    if (!body_matrix_.factorize()) return false;
+    for (const auto& [c, inverse] : tempered_) add(c, d_inverse_[c] - inverse);
+    return true;
+}
+
+/// Adds B_c inverse B_c^T.
+template <int Dim>
+void KrylovConeSolver<Dim>::add(std::size_t c, const Small& inverse) {
+    std::size_t slot = slot_begin_[c];
+    for (std::size_t i = piece_begin_[c]; i < piece_begin_[c + 1]; ++i) {
+        const Piece left = piece_[i] * inverse;
+        for (std::size_t j = piece_begin_[c]; j < piece_begin_[c + 1]; ++j)
+            body_matrix_.block(slots_[slot++]).noalias() += left * piece_[j].transpose();
+    }
+}
+
+/// Cuts s of D = (a 0; s T) down to what leaves D + D^T positive definite; false if it is.
+template <int Dim>
+bool KrylovConeSolver<Dim>::temper(Small& d) {
+    auto s = d.template bottomLeftCorner<Dim - 1, 1>();
+    const Eigen::Matrix<double, Dim - 1, Dim - 1> t =
+        d.template bottomRightCorner<Dim - 1, Dim - 1>();
+    const double square = s.dot(t.inverse() * s);
+    if (!(square > 4.0 * d(0, 0))) return false;
+    s *= std::sqrt(4.0 * d(0, 0) / square);
+    return true;
 }
 
 /// v = B D^-1 e.
