@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(gallery, D, dimensions) {
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(takes_about_the_steps_of_the_exact_one, D, dimensions) {
     constexpr int dim = D::value;
-    for (const std::size_t height : {5, 30}) {
+    for (const std::size_t height : {5u, 30u}) {
         const auto p = tower<dim>(height);
         std::vector<talus::Vector<dim>> exact(height, talus::Vector<dim>::Zero()), r = exact;
         Solver<dim> with_factors({.tolerance = 1e-8});
