@@ -51,6 +51,8 @@ std::vector<RegisteredSolver> own_solvers() {
     solvers.push_back(engine<talus::Extragradient>("extragradient"));
     solvers.push_back(engine<talus::Admm>("admm"));
     solvers.push_back(engine<talus::InteriorPoint>("interior_point"));
+    solvers.push_back(engine<talus::InteriorPoint>("inexact_interior_point",
+                                                   {.inner = talus::InnerSolve::krylov}));
     solvers.push_back(engine<talus::ProximalNewton>("proximal_newton"));
     return solvers;
 }

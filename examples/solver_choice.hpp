@@ -48,6 +48,12 @@ talus::SolveReport solve_with(FrictionProblem<Dim>& p, std::span<talus::Vector<D
     return solver.solve(p.delassus, p.free_velocity, p.laws, r);
 }
 
+/// The interior point without factors.
+template <int Dim, class Law>
+struct InexactInteriorPoint : talus::InteriorPoint<Dim, Law> {
+    InexactInteriorPoint() : talus::InteriorPoint<Dim, Law>({.inner = talus::InnerSolve::krylov}) {}
+};
+
 /// The table of solvers: one line each.
 template <int Dim>
 inline constexpr std::array solver_choices{
@@ -61,6 +67,8 @@ inline constexpr std::array solver_choices{
     SolverChoice<Dim>{"admm", &solve_with<talus::Admm<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"interior_point",
                       &solve_with<talus::InteriorPoint<Dim, talus::Coulomb<Dim>>>},
+    SolverChoice<Dim>{"inexact_interior_point",
+                      &solve_with<InexactInteriorPoint<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"proximal_newton",
                       &solve_with<talus::ProximalNewton<Dim, talus::Coulomb<Dim>>>},
 };

@@ -48,6 +48,16 @@ class ConeSystem {
     /// u = W r.
     void multiply(const Vec& r, Vec& u) const;
 
+    /// What W is made of: B, or null where only the blocks of W are known; then these, row by row.
+    const BodyMap<Dim>* bodies() const { return in_body_space_ ? &bodies_ : nullptr; }
+    std::span<const std::size_t> columns(std::size_t i) const {
+        return std::span(column_).subspan(row_begin_[i], row_begin_[i + 1] - row_begin_[i]);
+    }
+    /// The block of column number k of `columns(i)`.
+    Eigen::Map<const Matrix<Dim>> row_block(std::size_t i, std::size_t k) const {
+        return block(row_begin_[i] + k);
+    }
+
     void to_scaled(std::span<const Vector<Dim>> r, Vec& scaled) const {
         scaled.resize(q_.size());
         for (std::size_t c = 0; c < r.size(); ++c)
