@@ -6,6 +6,7 @@
 #include <talus/solver/automatic.hpp>
 #include <talus/solver/extragradient.hpp>
 #include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/inexact_interior_point.hpp>
 #include <talus/solver/interior_point.hpp>
 #include <talus/solver/projected_gradient.hpp>
 #include <talus/solver/proximal_newton.hpp>
@@ -51,8 +52,7 @@ std::vector<RegisteredSolver> own_solvers() {
     solvers.push_back(engine<talus::Extragradient>("extragradient"));
     solvers.push_back(engine<talus::Admm>("admm"));
     solvers.push_back(engine<talus::InteriorPoint>("interior_point"));
-    solvers.push_back(engine<talus::InteriorPoint>("inexact_interior_point",
-                                                   {.inner = talus::InnerSolve::krylov}));
+    solvers.push_back(engine<talus::InexactInteriorPoint>("inexact_interior_point"));
     solvers.push_back(engine<talus::ProximalNewton>("proximal_newton"));
     return solvers;
 }

@@ -9,6 +9,7 @@
 #include <talus/solver/automatic.hpp>
 #include <talus/solver/extragradient.hpp>
 #include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/inexact_interior_point.hpp>
 #include <talus/solver/interior_point.hpp>
 #include <talus/solver/projected_gradient.hpp>
 #include <talus/solver/proximal_newton.hpp>
@@ -48,12 +49,6 @@ talus::SolveReport solve_with(FrictionProblem<Dim>& p, std::span<talus::Vector<D
     return solver.solve(p.delassus, p.free_velocity, p.laws, r);
 }
 
-/// The interior point without factors.
-template <int Dim, class Law>
-struct InexactInteriorPoint : talus::InteriorPoint<Dim, Law> {
-    InexactInteriorPoint() : talus::InteriorPoint<Dim, Law>({.inner = talus::InnerSolve::krylov}) {}
-};
-
 /// The table of solvers: one line each.
 template <int Dim>
 inline constexpr std::array solver_choices{
@@ -68,7 +63,7 @@ inline constexpr std::array solver_choices{
     SolverChoice<Dim>{"interior_point",
                       &solve_with<talus::InteriorPoint<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"inexact_interior_point",
-                      &solve_with<InexactInteriorPoint<Dim, talus::Coulomb<Dim>>>},
+                      &solve_with<talus::InexactInteriorPoint<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"proximal_newton",
                       &solve_with<talus::ProximalNewton<Dim, talus::Coulomb<Dim>>>},
 };

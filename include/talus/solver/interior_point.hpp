@@ -3,7 +3,6 @@
 
 #include <talus/core/types.hpp>
 #include <talus/solver/cone_engine.hpp>
-#include <talus/solver/krylov_cone_solver.hpp>
 
 #include <Eigen/Core>
 
@@ -16,12 +15,6 @@
 
 namespace talus {
 
-/// How an interior point solves for its directions.
-enum class InnerSolve {
-    factors,  ///< a sparse LU of W + D
-    krylov,   ///< iterations, as far as the step can use: memory grows with the contacts alone
-};
-
 struct InteriorPointParams {
     /// Factorisations allowed [-], not negative. 10 to 30 are usual, nearly whatever the size.
     int max_iterations = 80;
@@ -30,9 +23,28 @@ struct InteriorPointParams {
     /// How far inside the cones the solver begins, in root mean square free velocities per contact
     /// [-], positive: 1 forgets most of the warm start, 0.01 trusts it. Zero impulses begin at 1.
     double margin = 0.1;
-    InnerSolve inner = InnerSolve::factors;
-    /// Inner iterations allowed for one direction [-], positive. 5 to 100 are usual.
+    /// Inner iterations allowed for one direction of InexactInteriorPoint [-], positive. 5 to 100
+    /// are usual.
     int max_inner_iterations = 1000;
+};
+
+/// How InteriorPoint solves (W + D) x = b for its directions: by factors.
+template <int Dim>
+class FactoredDirections {
+  public:
+    /// Progress that shows a path is worth following: the fall of the gap in 12 steps.
+    static constexpr double hope = 0.5;
+
+    void begin(const ConeSystem<Dim>& /*system*/) {}
+    bool prepare(ConeSystem<Dim>& system, std::span<const Matrix<Dim>> d) {
+        return system.factorize(d);
+    }
+    /// x with an error in u that is far below `allowed` [sqrt(J)].
+    bool solve(ConeSystem<Dim>& system, const Eigen::VectorXd& b, Eigen::VectorXd& x,
+               double /*allowed*/, int /*max_iterations*/) {
+        system.solve(b, x);
+        return true;
+    }
 };
 
 /// Primal-dual interior point for the exact law of Coulomb, without de Saxce's shift. The central
@@ -54,22 +66,18 @@ struct InteriorPointParams {
 /// its sign there), and steps then shrink to nothing. The status is `stalled` and the best impulses
 /// met are returned; another `margin` or warm start may lead to a path that goes through.
 ///
-/// With `InnerSolve::krylov` directions are inexact [DemboEisenstatSteihaug1982]: the error left in
-/// u is a tenth of what the path asks of u where contacts press; the steps remain about as many.
-/// Cheaper and smaller than factors for masonry of 1,000 contacts and more, not in houses of cards.
-template <int Dim, ContactLaw<Dim> Law>
-class InteriorPoint : public ConeEngine<Dim, Law, InteriorPoint<Dim, Law>> {
+/// `InteriorPoint` is this with factors, `InexactInteriorPoint` (inexact_interior_point.hpp)
+/// without.
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+class BasicInteriorPoint : public ConeEngine<Dim, Law, BasicInteriorPoint<Dim, Law, Directions>> {
   public:
-    explicit InteriorPoint(InteriorPointParams params = {}) : params(params) {}
+    explicit BasicInteriorPoint(InteriorPointParams params = {}) : params(params) {}
     InteriorPointParams params;
 
-    /// Inner iterations of the last solve; 0 with factors.
-    long inner_iteration_count() const {
-        return params.inner == InnerSolve::krylov ? krylov_.iteration_count() : 0;
-    }
+    const Directions& directions() const { return directions_; }
 
   private:
-    using Base = ConeEngine<Dim, Law, InteriorPoint<Dim, Law>>;
+    using Base = ConeEngine<Dim, Law, BasicInteriorPoint<Dim, Law, Directions>>;
     friend Base;
     using Vec = Eigen::VectorXd;
     using Point = Vector<Dim>;
@@ -173,8 +181,7 @@ class InteriorPoint : public ConeEngine<Dim, Law, InteriorPoint<Dim, Law>> {
 
     void start(Vec& r);
     double scale_contacts(const Vec& r);
-    bool factorize();
-    bool solve_for_direction(const Vec& r);
+    double allowed_error(const Vec& r) const;
     bool find_direction(const Vec& r, double target);
     double longest_step(const Vec& r) const;
     double gap_after(const Vec& r, double step) const;
@@ -185,12 +192,12 @@ class InteriorPoint : public ConeEngine<Dim, Law, InteriorPoint<Dim, Law>> {
     std::vector<Matrix<Dim>> d_;
     Vec u_, right_, dr_;
     double gap_ = 0.0;  ///< mean complementarity where D was taken
-    KrylovConeSolver<Dim> krylov_;
+    Directions directions_;
 };
 
 /// Moves r into the cones, and velocities with it.
-template <int Dim, ContactLaw<Dim> Law>
-void InteriorPoint<Dim, Law>::start(Vec& r) {
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+void BasicInteriorPoint<Dim, Law, Directions>::start(Vec& r) {
     const auto& system = this->system_;
     const double scale =
         system.free_velocity().norm() / std::sqrt(static_cast<double>(system.contact_count()));
@@ -218,8 +225,8 @@ void InteriorPoint<Dim, Law>::start(Vec& r) {
 }
 
 /// Scales all contacts, fills D; returns the mean complementarity.
-template <int Dim, ContactLaw<Dim> Law>
-double InteriorPoint<Dim, Law>::scale_contacts(const Vec& r) {
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+double BasicInteriorPoint<Dim, Law, Directions>::scale_contacts(const Vec& r) {
     constexpr double rigid = 1e30;  // no tangential impulse
     double gap = 0.0;
     std::size_t pairs = 0;
@@ -244,33 +251,22 @@ double InteriorPoint<Dim, Law>::scale_contacts(const Vec& r) {
     return gap / static_cast<double>(pairs);
 }
 
-template <int Dim, ContactLaw<Dim> Law>
-bool InteriorPoint<Dim, Law>::factorize() {
-    if (params.inner == InnerSolve::factors) return this->system_.factorize(d_);
-    dr_.setZero(this->system_.free_velocity().size());
-    return krylov_.prepare(this->system_, d_);
-}
-
-/// dr_ from right_. Inexact ones begin with the direction that is there: the predictor's.
-template <int Dim, ContactLaw<Dim> Law>
-bool InteriorPoint<Dim, Law>::solve_for_direction(const Vec& r) {
-    if (params.inner == InnerSolve::factors) {
-        this->system_.solve(right_, dr_);
-        return true;
-    }
+/// In u, for directions that need not be exact [DemboEisenstatSteihaug1982]: a tenth of what the
+/// path asks of u where contacts press.
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+double BasicInteriorPoint<Dim, Law, Directions>::allowed_error(const Vec& r) const {
     // On the path u_n = gap / r_n. Less than the tolerance asks for is of no use.
     constexpr double share = 0.1;
     const double path = gap_ * static_cast<double>(contacts_.size()) / r.norm();
     const double enough =
         params.tolerance * std::max(r.norm(), this->system_.free_velocity().norm());
-    const double error = share * std::max(enough, std::min(right_.norm(), path));
-    return krylov_.solve(this->system_, right_, dr_, error, params.max_inner_iterations);
+    return share * std::max(enough, std::min(right_.norm(), path));
 }
 
 /// Newton's direction to the point of complementarity `target` of the path, with the corrections
 /// stored.
-template <int Dim, ContactLaw<Dim> Law>
-bool InteriorPoint<Dim, Law>::find_direction(const Vec& r, double target) {
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+bool BasicInteriorPoint<Dim, Law, Directions>::find_direction(const Vec& r, double target) {
     right_.resize(r.size());
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
         Contact& k = contacts_[c];
@@ -287,7 +283,9 @@ bool InteriorPoint<Dim, Law>::find_direction(const Vec& r, double target) {
         tangential = h.template tail<Dim - 1>() -
                      (u_.template segment<Dim - 1>(i + 1) - k.s.template tail<Dim - 1>());
     }
-    if (!solve_for_direction(r)) return false;
+    if (!directions_.solve(this->system_, right_, dr_, allowed_error(r),
+                           params.max_inner_iterations))
+        return false;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
         Contact& k = contacts_[c];
         const Eigen::Index i = Base::System::first(c);
@@ -300,8 +298,8 @@ bool InteriorPoint<Dim, Law>::find_direction(const Vec& r, double target) {
     return dr_.allFinite();
 }
 
-template <int Dim, ContactLaw<Dim> Law>
-double InteriorPoint<Dim, Law>::longest_step(const Vec& r) const {
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+double BasicInteriorPoint<Dim, Law, Directions>::longest_step(const Vec& r) const {
     double step = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
         const Contact& k = contacts_[c];
@@ -316,8 +314,8 @@ double InteriorPoint<Dim, Law>::longest_step(const Vec& r) const {
 }
 
 /// Mean complementarity after a step.
-template <int Dim, ContactLaw<Dim> Law>
-double InteriorPoint<Dim, Law>::gap_after(const Vec& r, double step) const {
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+double BasicInteriorPoint<Dim, Law, Directions>::gap_after(const Vec& r, double step) const {
     double gap = 0.0;
     std::size_t pairs = 0;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -333,8 +331,8 @@ double InteriorPoint<Dim, Law>::gap_after(const Vec& r, double step) const {
 }
 
 /// Mehrotra's second-order terms of the direction in hand.
-template <int Dim, ContactLaw<Dim> Law>
-void InteriorPoint<Dim, Law>::correct() {
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+void BasicInteriorPoint<Dim, Law, Directions>::correct() {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
         Contact& k = contacts_[c];
         k.normal_correction = k.du_n * dr_[Base::System::first(c)];
@@ -343,27 +341,26 @@ void InteriorPoint<Dim, Law>::correct() {
     }
 }
 
-template <int Dim, ContactLaw<Dim> Law>
-void InteriorPoint<Dim, Law>::drop_corrections() {
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+void BasicInteriorPoint<Dim, Law, Directions>::drop_corrections() {
     for (Contact& k : contacts_) {
         k.normal_correction = 0.0;
         k.correction.setZero();
     }
 }
 
-template <int Dim, ContactLaw<Dim> Law>
-void InteriorPoint<Dim, Law>::iterate(Vec& best) {
+template <int Dim, ContactLaw<Dim> Law, class Directions>
+void BasicInteriorPoint<Dim, Law, Directions>::iterate(Vec& best) {
     require_positive("margin", params.margin);
     require_positive("max_inner_iterations", params.max_inner_iterations);
-    if (params.inner == InnerSolve::krylov) krylov_.analyze(this->system_);
-    // A step costs little where it needs no factors: more of them may be tried.
-    const double hope = params.inner == InnerSolve::krylov ? 0.9 : 0.5;
+    directions_.begin(this->system_);
     Vec r = best;
     start(r);
     double gap_before = std::numeric_limits<double>::infinity();
     for (int k = 1; k <= params.max_iterations; ++k) {
         const double gap = gap_ = scale_contacts(r);
-        if (!std::isfinite(gap) || !factorize()) break;
+        if (!std::isfinite(gap) || !directions_.prepare(this->system_, d_)) break;
+        dr_.setZero(r.size());
         drop_corrections();
         if (!find_direction(r, 0.0)) break;
         const double affine = std::min(1.0, longest_step(r));
@@ -392,9 +389,12 @@ void InteriorPoint<Dim, Law>::iterate(Vec& best) {
         if (this->offer(k, r, u_, best)) return;
         constexpr int patience = 12;
         if (k % patience != 0) continue;
-        if (gap > hope * gap_before) break;
+        if (gap > Directions::hope * gap_before) break;
         gap_before = gap;
     }
 }
+
+template <int Dim, ContactLaw<Dim> Law>
+using InteriorPoint = BasicInteriorPoint<Dim, Law, FactoredDirections<Dim>>;
 
 }  // namespace talus
