@@ -64,8 +64,6 @@ class BlockLu {
     bool factorize();
     /// x := A^-1 x.
     void solve(Eigen::Ref<Eigen::VectorXd> x) const;
-    /// 1 or -1: the sign of the determinant of what was factorised last.
-    int determinant_sign() const;
 
   private:
     using Front = FrontalPlan::Front;
@@ -176,16 +174,6 @@ inline bool BlockLu::factorize() {
         top += node(f.rest) * node(f.rest);
     }
     return true;
-}
-
-inline int BlockLu::determinant_sign() const {
-    bool negative = false;
-    for (const Front& f : plan_.fronts())
-        for (int k = 0; k < f.pivots; ++k) {
-            const double pivot = factor_[static_cast<std::size_t>(f.factor) + node(k) * node(f.pivots + 1)];
-            negative ^= (pivot < 0.0) ^ (exchange_[node(f.row + k)] != k);
-        }
-    return negative ? -1 : 1;
 }
 
 inline void BlockLu::solve(Eigen::Ref<Eigen::VectorXd> x) const {

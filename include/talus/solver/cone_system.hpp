@@ -86,8 +86,6 @@ class ConeSystem {
     }
     /// Factorises W + D. False if that fails.
     bool factorize(std::span<const Matrix<Dim>> d);
-    /// 1 or -1: the sign of det(W + D) of the last factorisation, if det D is positive.
-    int determinant_sign() const { return lu_.determinant_sign(); }
     /// x with (W + D) x = b, refined until the error is rounding (at most `refinements` times).
     void solve(const Vec& b, Vec& x, int refinements = 2);
 
