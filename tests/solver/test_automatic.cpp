@@ -2,6 +2,14 @@
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
 #include <talus/solver/automatic.hpp>
+#include <talus/spatial/local_frame.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"
@@ -18,6 +26,46 @@ talus::ContactProblem<Dim, Law<Dim>> squeezed_ball() {
     // Bodies 0 and 1 of the stack and an obstacle below: make the upper body an obstacle too.
     p.inverse_mass.linear[1] = 0.0;
     for (auto& u : p.free_velocity) u = -talus::Vector<Dim>::Unit(0);
+    return p;
+}
+
+/// A triangular heap of discs of radius and mass 1 on a floor, under gravity, about to flow: the
+/// interior point's path folds in it.
+talus::ContactProblem<2, Law<2>> lattice_heap(int base) {
+    talus::ContactProblem<2, Law<2>> p;
+    std::vector<talus::Vector<2>> centre;
+    for (int row = 0; row < base; ++row)
+        for (int k = 0; k + row < base; ++k)
+            centre.emplace_back(2.0 * k + row, std::sqrt(3.0) * row);
+    const int discs = static_cast<int>(centre.size());
+    p.inverse_mass.resize(centre.size() + 1);
+    for (std::size_t i = 0; i <= centre.size(); ++i) {
+        p.inverse_mass.linear[i] = i < centre.size() ? 1.0 : 0.0;
+        p.inverse_mass.angular[i].setConstant(2.0 * p.inverse_mass.linear[i]);
+    }
+    std::vector<std::array<int, 2>> pairs;
+    for (int i = 0; i < discs; ++i) {
+        if (i < base) pairs.push_back({i, discs});
+        for (int j = 0; j < i; ++j)
+            if ((centre[static_cast<std::size_t>(i)] - centre[static_cast<std::size_t>(j)]).norm() <
+                2.1)
+                pairs.push_back({i, j});
+    }
+    p.jacobian.resize(pairs.size());
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+        const auto [a, b] = pairs[c];
+        talus::Vector<2> n = talus::Vector<2>::Unit(1);
+        if (b < discs)
+            n = 0.5 * (centre[static_cast<std::size_t>(a)] - centre[static_cast<std::size_t>(b)]);
+        p.jacobian.a[c] = a;
+        p.jacobian.b[c] = b;
+        p.jacobian.frame[c] = talus::local_frame<2>(n);
+        p.jacobian.arm_a[c] = -n;
+        p.jacobian.arm_b[c] = n;
+        // Among discs nothing moves yet: they all fall alike.
+        p.free_velocity.push_back((b == discs ? -1.0 : 0.0) * talus::Vector<2>::Unit(0));
+        p.laws.push_back(Law<2>{0.5});
+    }
     return p;
 }
 
@@ -126,6 +174,28 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(laws_without_a_cone_are_left_to_sweeps, D, dimensi
     BOOST_TEST((report.status == talus::SolveStatus::converged));
     for (const auto& stage : report.stages)
         BOOST_TEST((stage.engine != "interior_point" && stage.engine != "newton_polish"));
+}
+
+BOOST_AUTO_TEST_CASE(where_no_engine_arrives_all_take_turns_and_the_best_impulses_are_returned) {
+    const auto p = lattice_heap(26);
+    std::vector<talus::Vector<2>> r(p.contact_count(), talus::Vector<2>::Zero());
+    talus::Automatic<2, Law<2>> solver({.tolerance = 1e-12, .max_sweeps = 3000});
+    const auto& report = solver.solve(p, r);
+    BOOST_TEST((report.status == talus::SolveStatus::iteration_limit));
+    const double residual = talus::residual(p, std::span<const talus::Vector<2>>(r)).relative;
+    BOOST_TEST(std::abs(residual - report.residual) <= 1e-6 * residual);
+    int iterations = 0;
+    for (const auto& stage : report.stages) {
+        iterations += stage.iterations;
+        BOOST_TEST(report.residual <= stage.residual * (1.0 + 1e-6), stage.engine);
+    }
+    BOOST_TEST(iterations == report.iterations);
+    for (const std::string_view engine :
+         {"gauss_seidel", "anderson", "nesterov", "interior_point", "proximal_newton",
+          "spectral_gradient", "accelerated_gradient"}) {
+        const auto is_it = [&](const talus::SolveStage& stage) { return stage.engine == engine; };
+        BOOST_TEST(std::any_of(report.stages.begin(), report.stages.end(), is_it), engine);
+    }
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(same_input_same_bits, D, dimensions) {

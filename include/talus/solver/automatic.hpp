@@ -31,7 +31,7 @@ struct AutomaticParams {
     /// Sweeps allowed in all [-], not negative. A double sweep counts as two, a product with W in a
     /// gradient method as one.
     int max_sweeps = 40000;
-    /// Factorisations allowed in all [-], not negative. 0 leaves everything to methods without.
+    /// Factorisations allowed in all [-], not negative. 0 leaves everything to sweeps.
     int max_factorizations = 1000;
     /// Memory that the factors may take [bytes], not negative. A problem that needs more is left to
     /// methods without.
