@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/symmetric_eigen.hpp>
 #include <talus/core/types.hpp>
 #include <talus/spatial/inertia.hpp>
 #include <talus/spatial/pose.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace talus {
 
@@ -39,10 +40,10 @@ PrincipalFrame<Dim> principal_frame(const MassProperties<Dim>& m) {
         if (off <= 1e-14 * m.inertia.trace()) {
             result.moments = m.inertia.diagonal();
         } else {
-            const Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen(m.inertia);
-            Matrix<3> axes = eigen.eigenvectors();
+            const SymmetricEigen<3> eigen(m.inertia);
+            Matrix<3> axes = eigen.vectors;
             if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
-            result.moments = eigen.eigenvalues();
+            result.moments = eigen.values;
             result.pose.rotation = Rotation<3>::from_matrix(axes);
         }
     }

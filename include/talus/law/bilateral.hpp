@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/symmetric_eigen.hpp>
 #include <talus/law/concepts.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <limits>
 
@@ -28,13 +27,13 @@ struct Bilateral {
     };
 
     PinBlock prepare(const Matrix<Rows>& w) const {
-        const Eigen::SelfAdjointEigenSolver<Matrix<Rows>> eigen(w);
+        const SymmetricEigen<Rows> eigen(w);
         // Eigenvalues are known to a few ulps of the largest: below that, zero is as likely.
-        const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
-                                eigen.eigenvalues().cwiseAbs().maxCoeff();
-        PinBlock block{w, eigen.eigenvectors(), Vector<Rows>::Zero()};
+        const double rounding =
+            8.0 * std::numeric_limits<double>::epsilon() * eigen.values.cwiseAbs().maxCoeff();
+        PinBlock block{w, eigen.vectors, Vector<Rows>::Zero()};
         for (int i = 0; i < Rows; ++i)
-            if (eigen.eigenvalues()[i] > rounding) block.inverse[i] = 1.0 / eigen.eigenvalues()[i];
+            if (eigen.values[i] > rounding) block.inverse[i] = 1.0 / eigen.values[i];
         return block;
     }
     Vector<Rows> improved(const PinBlock& block, const Vector<Rows>& u,

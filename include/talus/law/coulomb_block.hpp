@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/symmetric_eigen.hpp>
 #include <talus/core/types.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <limits>
@@ -84,12 +83,11 @@ requires SpaceDimension<Dim> CoulombBlock<Dim>::CoulombBlock(const Matrix<Dim>& 
     const double rounding = 8.0 * epsilon * w.trace();
     if (w(0, 0) > epsilon * w.trace()) normal_inverse_ = 1.0 / w(0, 0);
     const Tangent w_tn = w.template bottomLeftCorner<Dim - 1, 1>();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim - 1, Dim - 1>> eigen(
-        w.template bottomRightCorner<Dim - 1, Dim - 1>() -
-        w_tn * (w_tn.transpose() * normal_inverse_));
-    axes_ = eigen.eigenvectors();
+    const SymmetricEigen<Dim - 1> eigen(w.template bottomRightCorner<Dim - 1, Dim - 1>() -
+                                        w_tn * (w_tn.transpose() * normal_inverse_));
+    axes_ = eigen.vectors;
     coupling_ = axes_.transpose() * w_tn;
-    stiffness_ = eigen.eigenvalues();
+    stiffness_ = eigen.values;
     // The elimination leaves errors of this size, of either sign.
     stiffness_ = (stiffness_.array() > rounding).select(stiffness_, 0.0);
     const bool isotropic = stiffness_[Dim - 2] - stiffness_[0] <= rounding;

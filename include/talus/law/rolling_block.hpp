@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/symmetric_eigen.hpp>
 #include <talus/law/bracketed_root.hpp>
 #include <talus/law/rolling_cone.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Jacobi>
 
 #include <algorithm>
@@ -96,14 +96,13 @@ requires RollingRows<Rows> RollingBlock<Rows>::RollingBlock(const Matrix<Rows>& 
     w_.template rightCols<T>() *= length_;
     w_.template bottomRows<T>() *= length_;
     const double rounding = 8.0 * epsilon * w_.trace();
-    const Eigen::SelfAdjointEigenSolver<Matrix<Rows>> all(w_);
-    axes_ = all.eigenvectors();
+    const SymmetricEigen<Rows> all(w_);
+    axes_ = all.vectors;
     for (int i = 0; i < Rows; ++i)
-        inverse_[i] = all.eigenvalues()[i] > rounding ? 1.0 / all.eigenvalues()[i] : 0.0;
-    const Eigen::SelfAdjointEigenSolver<PartMatrix> rolling(
-        PartMatrix(w_.template bottomRightCorner<T, T>()));
-    rolling_axes_ = rolling.eigenvectors();
-    rolling_ = rolling.eigenvalues();
+        inverse_[i] = all.values[i] > rounding ? 1.0 / all.values[i] : 0.0;
+    const SymmetricEigen<T> rolling(w_.template bottomRightCorner<T, T>());
+    rolling_axes_ = rolling.vectors;
+    rolling_ = rolling.values;
     rolling_ = (rolling_.array() > 8.0 * epsilon * rolling_.sum()).select(rolling_, 0.0);
     coupling_ = w_.template block<T, T>(1, 1 + T) * rolling_axes_;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/symmetric_eigen.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/problem/matrix_problem.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -136,11 +136,11 @@ void BodyMap<Dim>::assign(const ContactJacobian<Dim>& jacobian,
     std::vector<int> index(inverse_mass.body_count(), -1);
     std::vector<Eigen::Matrix<double, Eigen::Dynamic, twist_dof<Dim>>> root;
     for (std::size_t k = 0; k < index.size(); ++k) {
-        const Eigen::SelfAdjointEigenSolver<AngularMatrix<Dim>> spin(inverse_mass.angular[k]);
+        const SymmetricEigen<turns> spin(inverse_mass.angular[k]);
         const bool moves = inverse_mass.linear[k] > 0.0;
-        const double largest = spin.eigenvalues().maxCoeff();
+        const double largest = spin.values.maxCoeff();
         int rows = moves ? Dim : 0;
-        for (int d = 0; d < turns; ++d) rows += spin.eigenvalues()[d] > 1e-15 * largest;
+        for (int d = 0; d < turns; ++d) rows += spin.values[d] > 1e-15 * largest;
         if (rows == 0) continue;
         Eigen::Matrix<double, Eigen::Dynamic, twist_dof<Dim>> c(rows, twist_dof<Dim>);
         c.setZero();
@@ -148,9 +148,9 @@ void BodyMap<Dim>::assign(const ContactJacobian<Dim>& jacobian,
             c.template topLeftCorner<Dim, Dim>().diagonal().setConstant(
                 std::sqrt(inverse_mass.linear[k]));
         for (int d = 0, row = moves ? Dim : 0; d < turns; ++d)
-            if (spin.eigenvalues()[d] > 1e-15 * largest)
+            if (spin.values[d] > 1e-15 * largest)
                 c.row(row++).template tail<turns>() =
-                    std::sqrt(spin.eigenvalues()[d]) * spin.eigenvectors().col(d).transpose();
+                    std::sqrt(spin.values[d]) * spin.vectors.col(d).transpose();
         index[k] = static_cast<int>(size_.size());
         size_.push_back(rows);
         offset_.push_back(offset_.back() + rows);

@@ -62,7 +62,7 @@ requires SpaceDimension<Dim> AngularVector<Dim> torque_free_spin(
             // d(exp(half w) m) = -half [exp(half w) m]_x dw to first order in half |w|.
             Matrix<3> slope = turn.matrix() * principal.asDiagonal();
             slope -= half * moment_matrix<3>(carried);
-            w -= slope.partialPivLu().solve(error);
+            w -= slope.inverse() * error;
         }
         return best;
     }
