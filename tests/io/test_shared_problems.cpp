@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/io/read_problem.hpp>
 #include <talus/problem/residual.hpp>
-#include <talus/solver/automatic.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -11,6 +10,8 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "common/automatic.hpp"
 
 using talus::Vector;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
-#include <talus/solver/automatic.hpp>
 #include <talus/spatial/local_frame.hpp>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/automatic.hpp"
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"
 
@@ -143,7 +143,16 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(bodies_squeezed_by_obstacles_have_no_solution, D, 
     talus::Automatic<dim, Law<dim>> solver;
     BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::no_solution));
     for (const auto& x : r) BOOST_TEST(x.allFinite());
+    // Impulses so large that no tolerance sees the rest: they come back as they were given.
+    r.assign(2, 1e12 * talus::Vector<dim>::Unit(0));
+    const auto& report = solver.solve(p, r);
+    BOOST_TEST((report.status == talus::SolveStatus::no_solution));
+    BOOST_TEST((r[0] == 1e12 * talus::Vector<dim>::Unit(0)));
+    const double residual = talus::residual(p, std::span<const talus::Vector<dim>>(r)).relative;
+    BOOST_TEST(residual > 0.0);
+    BOOST_TEST(std::abs(report.residual - residual) <= 1e-6 * residual);
     // One obstacle that gives way as fast as the other comes: the ball moves with them.
+    r.assign(2, talus::Vector<dim>::Zero());
     p.free_velocity[1] *= -1.0;
     BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::converged));
 }

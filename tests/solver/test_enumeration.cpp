@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/bilateral.hpp>
-#include <talus/solver/automatic.hpp>
 #include <talus/solver/enumeration.hpp>
 #include <talus/solver/gauss_seidel.hpp>
 
 #include <cmath>
 #include <numbers>
 
+#include "common/automatic.hpp"
 #include "common/coulomb_enumeration.hpp"
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"
@@ -34,8 +34,7 @@ auto with_tolerance() {
 template <int Dim>
 std::vector<GalleryProblem<Dim>> tiny_problems(std::size_t contacts) {
     std::vector<GalleryProblem<Dim>> tiny;
-    const Gallery<Dim> gallery(200, 3);
-    for (const auto& entry : gallery.problems())
+    for (const auto& entry : gallery_problems<Dim>(200, 3))
         if (entry.problem.contact_count() <= contacts) tiny.push_back(entry);
     return tiny;
 }
@@ -78,14 +77,13 @@ BOOST_AUTO_TEST_CASE(is_robust_on_tiny_problems_of_the_gallery_in_the_plane) {
     promises.stiff = 1e-7;
     const auto problems = tiny_problems<2>(6);
     BOOST_TEST(problems.size() > 50u);
-    GalleryTester<2>(of_bodies<2>(with_tolerance<2>(), promises, most), problems).run();
-    GalleryTester<2>(of_blocks<2>(with_tolerance<2>(), promises, most), problems).run();
+    test_on_problems<2>(of_bodies<2>(with_tolerance<2>(), promises, most), problems);
+    test_on_problems<2>(of_blocks<2>(with_tolerance<2>(), promises, most), problems);
 }
 
 BOOST_AUTO_TEST_CASE(is_true_on_tiny_problems_of_the_gallery_in_space) {
-    GalleryTester<3>(of_bodies<3>(with_tolerance<3>(), {.well_posed = 1e-10}, most),
-                     tiny_problems<3>(3))
-        .run();
+    test_on_problems<3>(of_bodies<3>(with_tolerance<3>(), {.well_posed = 1e-10}, most),
+                        tiny_problems<3>(3));
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(agrees_with_sweeps_where_the_solution_is_unique, D, dimensions) {

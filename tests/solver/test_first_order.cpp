@@ -4,8 +4,11 @@
 #include <talus/solver/extragradient.hpp>
 #include <talus/solver/projected_gradient.hpp>
 
+#include <boost/test/unit_test.hpp>
+
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"
+#include "common/random_problem.hpp"
 
 namespace {
 

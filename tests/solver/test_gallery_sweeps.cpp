@@ -2,6 +2,8 @@
 #include <talus/solver/accelerated_gauss_seidel.hpp>
 #include <talus/solver/gauss_seidel.hpp>
 
+#include <boost/test/unit_test.hpp>
+
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"
 

@@ -2,6 +2,7 @@
 #include <talus/solver/inexact_interior_point.hpp>
 
 #include <Eigen/Dense>
+#include <boost/test/unit_test.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -11,6 +12,7 @@
 
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"
+#include "common/random_problem.hpp"
 
 namespace {
 

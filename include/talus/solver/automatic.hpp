@@ -5,6 +5,7 @@
 #include <talus/law/cone_of.hpp>
 #include <talus/solver/accelerated_gauss_seidel.hpp>
 #include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/impulse_memory.hpp>
 #include <talus/solver/interior_point.hpp>
 #include <talus/solver/newton_polish.hpp>
 #include <talus/solver/overlap_certificate.hpp>
@@ -17,7 +18,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -66,32 +66,14 @@ class Automatic {
 
     /// Solves `problem` from the warm start `r`, into `r`. Throws input_error on parameters out of
     /// range or arrays of different lengths.
-    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
-        const auto source = [&] { return BodyMap<Dim>(problem.jacobian, problem.inverse_mass); };
-        const double visits = static_cast<double>(problem.contact_count());
-        if (has_scalar_inertia(problem.inverse_mass)) {
-            scalar_product_.assign(problem.jacobian, problem.inverse_mass);
-            return run(scalar_product_, problem.free_velocity, problem.laws, r, visits, source);
-        }
-        product_.assign(problem.jacobian, problem.inverse_mass);
-        return run(product_, problem.free_velocity, problem.laws, r, visits, source);
-    }
+    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r);
     const SolveReport& solve(AssembledProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
         return solve(problem.delassus, problem.free_velocity, problem.laws, r);
     }
     const SolveReport& solve(DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity,
-                             std::span<const Law> laws, std::span<Vector<Dim>> r) {
-        return run(w, free_velocity, laws, r, visits_of(w),
-                   [&]() -> const DelassusSparse<Dim>& { return w; });
-    }
+                             std::span<const Law> laws, std::span<Vector<Dim>> r);
     const SolveReport& solve(DelassusGlobal<Dim>& w, std::span<const Vector<Dim>> free_velocity,
-                             std::span<const Law> laws, std::span<Vector<Dim>> r) {
-        const double visits = visits_of(w.assembled());
-        if (w.bodies() == nullptr)
-            return run(w, free_velocity, laws, r, visits,
-                       [&]() -> const DelassusSparse<Dim>& { return w.assembled(); });
-        return run(w, free_velocity, laws, r, visits, [&] { return *w.bodies(); });
-    }
+                             std::span<const Law> laws, std::span<Vector<Dim>> r);
 
     const SolveReport& report() const { return report_; }  ///< of the last solve
 
@@ -108,12 +90,6 @@ class Automatic {
         Source source;
     };
 
-    /// A sweep of an assembled W costs its blocks, of which five are one visit of a contact.
-    static double visits_of(const DelassusSparse<Dim>& w) {
-        return 0.5 * static_cast<double>(w.contact_count()) +
-               0.2 * static_cast<double>(w.block_count());
-    }
-
     template <class W, class Source>
     const SolveReport& run(W& w, std::span<const Vector<Dim>> free_velocity,
                            std::span<const Law> laws, std::span<Vector<Dim>> r, double visits,
@@ -125,7 +101,7 @@ class Automatic {
         report_ = {};
         Task<W, Source> task{w, free_velocity, laws, r, visits, source};
         let_engines_work(task);
-        if (report_.status != SolveStatus::not_finite) return_to_best(r);
+        if (report_.status != SolveStatus::not_finite) memory_.return_to_best(r, report_.residual);
         // An engine that gained nothing leaves samples of what it tried at the end.
         if (report_.history.back().residual != report_.residual)
             report_.history.push_back({report_.iterations, report_.residual});
@@ -137,7 +113,7 @@ class Automatic {
         sweeps_left_ = params.max_sweeps;
         factorizations_left_ = params.max_factorizations;
         passes_ = 0;
-        best_residual_ = std::numeric_limits<double>::infinity();
+        memory_.clear();
         constexpr double untried = 1e9;
         speed_ = {2.0 * untried, untried};
         polished_at_ = untried;
@@ -168,7 +144,7 @@ class Automatic {
         constexpr std::array margins{0.1, 1.0, 0.01};
         const bool interior = round < static_cast<int>(margins.size());
         if (factorizations_left_ > 0) {
-            start_cone_engines(task);
+            start_cone_engines(task.r);
             polish_where_new(8);
             if (interior) {
                 interior_.params.margin = margins[static_cast<std::size_t>(round)];
@@ -200,17 +176,7 @@ class Automatic {
     }
     /// Before an engine that may leave worse impulses than it was given.
     void keep(std::span<const Vector<Dim>> r) {
-        kept_.assign(r.begin(), r.end());
-        kept_residual_ = report_.residual;
-        if (report_.iterations == 0 || kept_residual_ >= best_residual_) return;
-        best_ = kept_;
-        best_residual_ = kept_residual_;
-    }
-
-    void return_to_best(std::span<Vector<Dim>> r) {
-        if (!(best_residual_ < report_.residual)) return;
-        std::copy(best_.begin(), best_.end(), r.begin());
-        report_.residual = best_residual_;
+        memory_.keep(r, report_.iterations == 0 ? ImpulseMemory<Dim>::unknown : report_.residual);
     }
 
     // Sweeps. All return true if the solve is over.
@@ -283,9 +249,8 @@ class Automatic {
         if (system_.factorization_bytes() > params.max_factor_bytes) factorizations_left_ = 0;
         return true;
     }
-    template <class T>
-    void start_cone_engines(T& task) {
-        system_.to_scaled(task.r, scaled_);
+    void start_cone_engines(std::span<const Vector<Dim>> r) {
+        system_.to_scaled(r, scaled_);
         scaled_residual_ = report_.residual;
     }
     template <class Engine>
@@ -315,7 +280,7 @@ class Automatic {
     bool descend(T& task, GradientStep step, int products) {
         products = std::min(products, sweeps_left_);
         if (products == 0) return true;
-        start_cone_engines(task);
+        start_cone_engines(task.r);
         gradient_.params.step = step;
         improve(step == GradientStep::spectral ? "spectral_gradient" : "accelerated_gradient",
                 gradient_, products);
@@ -338,7 +303,7 @@ class Automatic {
         if (residual <= report_.residual)
             report_.residual = residual;
         else
-            std::copy(kept_.begin(), kept_.end(), task.r.begin());
+            memory_.return_to_kept(task.r);
         report_.history.push_back({report_.iterations, report_.residual});
         if (report_.residual <= params.tolerance) report_.status = SolveStatus::converged;
         return is_over(task);
@@ -351,8 +316,8 @@ class Automatic {
         if (report_.status == SolveStatus::not_finite) return true;
         if (report_.status != SolveStatus::converged) return false;
         if (runs_away(task) && cannot_separate(task)) {
-            std::copy(kept_.begin(), kept_.end(), task.r.begin());
-            report_.residual = kept_residual_;
+            memory_.return_to_kept(task.r);
+            report_.residual = memory_.kept_residual(report_.history.front().residual);
             report_.status = SolveStatus::no_solution;
         }
         return true;
@@ -385,7 +350,8 @@ class Automatic {
     DelassusProduct<Dim, double> scalar_product_;
     System system_;
     ResidualMeasure<Dim> measure_;
-    std::vector<Vector<Dim>> kept_, best_, velocity_;
+    ImpulseMemory<Dim> memory_;
+    std::vector<Vector<Dim>> velocity_;
     OverlapCertificate<Dim> certificate_;
     Eigen::VectorXd scaled_;
     SolveReport report_;
@@ -394,7 +360,41 @@ class Automatic {
     std::array<double, 2> speed_{};  ///< digits (natural) per pass: anderson, nesterov
     std::size_t last_used_ = 0;      ///< index into speed_
     double passes_per_factorization_ = 0.0;
-    double kept_residual_ = 0.0, best_residual_ = 0.0, scaled_residual_ = 0.0, polished_at_ = 0.0;
+    double scaled_residual_ = 0.0, polished_at_ = 0.0;
 };
+
+// Not inline, so that `extern template class` spares a user all of it.
+
+template <int Dim, ContactLaw<Dim> Law>
+const SolveReport& Automatic<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
+                                              std::span<Vector<Dim>> r) {
+    const auto source = [&] { return BodyMap<Dim>(problem.jacobian, problem.inverse_mass); };
+    const double visits = static_cast<double>(problem.contact_count());
+    if (has_scalar_inertia(problem.inverse_mass)) {
+        scalar_product_.assign(problem.jacobian, problem.inverse_mass);
+        return run(scalar_product_, problem.free_velocity, problem.laws, r, visits, source);
+    }
+    product_.assign(problem.jacobian, problem.inverse_mass);
+    return run(product_, problem.free_velocity, problem.laws, r, visits, source);
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+const SolveReport& Automatic<Dim, Law>::solve(DelassusSparse<Dim>& w,
+                                              std::span<const Vector<Dim>> free_velocity,
+                                              std::span<const Law> laws, std::span<Vector<Dim>> r) {
+    return run(w, free_velocity, laws, r, sweep_visits(w),
+               [&]() -> const DelassusSparse<Dim>& { return w; });
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+const SolveReport& Automatic<Dim, Law>::solve(DelassusGlobal<Dim>& w,
+                                              std::span<const Vector<Dim>> free_velocity,
+                                              std::span<const Law> laws, std::span<Vector<Dim>> r) {
+    const double visits = sweep_visits(w.assembled());
+    if (w.bodies() == nullptr)
+        return run(w, free_velocity, laws, r, visits,
+                   [&]() -> const DelassusSparse<Dim>& { return w.assembled(); });
+    return run(w, free_velocity, laws, r, visits, [&] { return *w.bodies(); });
+}
 
 }  // namespace talus

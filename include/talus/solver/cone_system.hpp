@@ -19,6 +19,14 @@
 
 namespace talus {
 
+/// Cost of a sweep over an assembled W, in visits of a contact by a sweep over the contacts of two
+/// bodies: five blocks make one.
+template <int Dim>
+double sweep_visits(const DelassusSparse<Dim>& w) {
+    return 0.5 * static_cast<double>(w.contact_count()) +
+           0.2 * static_cast<double>(w.block_count());
+}
+
 /// A contact problem as the solvers see it that treat all contacts at once:  u = W r + q  with a
 /// friction cone at each contact, in scaled units: impulses are divided and velocities multiplied
 /// by sqrt(rho_c), rho_c the effective mass of ResidualMeasure. Both become square roots of
