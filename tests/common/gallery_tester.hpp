@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "common/effort.hpp"
 #include "common/solver_gallery.hpp"
 
 /// To which residual a solver promises to come; 0 where it promises nothing but a true report.
@@ -95,7 +96,8 @@ template <int Dim>
 void test_on_problems(const SolverUnderTest<Dim>& solver,
                       const std::vector<GalleryProblem<Dim>>& problems);
 template <int Dim>
-void test_on_gallery(const SolverUnderTest<Dim>& solver, unsigned seed = 200, int rounds = 3) {
+void test_on_gallery(const SolverUnderTest<Dim>& solver, unsigned seed = 200,
+                     int rounds = repetitions(3, 1)) {
     test_on_problems(solver, gallery_problems<Dim>(seed, rounds));
 }
 /// All forms of a problem lead to the same velocities, where these are unique.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/effort.hpp"
 #include "common/random_blocks.hpp"
 
 /// Error of r as the answer to the one-contact problem, relative to the largest of the impulse, the
@@ -56,7 +57,7 @@ class LawTester {
 
     void run() {
         BOOST_TEST_INFO_SCOPE("seed " << seed_);
-        for (int k = 0; k < 3000; ++k) {
+        for (int k = 0; k < repetitions(3000, 500); ++k) {
             solves(random_.well_conditioned<Dim>());
             solves(random_.semidefinite<Dim>(Dim));
             const talus::Matrix<Dim> deficient =
