@@ -3,7 +3,7 @@
 
 #include <talus/core/types.hpp>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include <cmath>
 #include <random>
@@ -48,12 +48,17 @@ class RandomBlocks {
         for (int i = 0; i < Dim; ++i) d[i] = uniform(0.1, 1.0);
         return q * d.asDiagonal() * q.transpose();
     }
-    /// Orthogonal, of either determinant.
+    /// Orthogonal, of either determinant. By Gram and Schmidt, twice: Householder's way takes
+    /// seconds to compile for each N.
     template <int N>
     Eigen::Matrix<double, N, N> orthogonal() {
-        const Eigen::HouseholderQR<Eigen::Matrix<double, N, N>> qr(normal<N, N>());
-        Eigen::Matrix<double, N, N> q = qr.householderQ();
-        return uniform(0.0, 1.0) < 0.5 ? Eigen::Matrix<double, N, N>(-q) : q;
+        Eigen::Matrix<double, N, N> q = normal<N, N>();
+        for (int k = 0; k < N; ++k) {
+            for (int pass = 0; pass < 2; ++pass)
+                for (int j = 0; j < k; ++j) q.col(k) -= q.col(j).dot(q.col(k)) * q.col(j);
+            q.col(k).normalize();
+        }
+        return q;
     }
     /// Orthogonal and leaves the normal alone: a change of tangents.
     template <int Dim>
