@@ -17,7 +17,7 @@ struct SymmetricEigen {
         double scale = 1.0;
         if constexpr (N == 2) {
             // It is tridiagonal as it stands. Eigen's general way does the same and instantiates
-            // Householder sequences for it, which took a third of the compile time of a small user.
+            // Householder sequences for it, which took a sixth of the compile time of a small user.
             scale = m.template triangularView<Eigen::Lower>().toDenseMatrix().cwiseAbs().maxCoeff();
             if (scale == 0.0) scale = 1.0;
             solver.computeFromTridiagonal(m.diagonal() / scale,
