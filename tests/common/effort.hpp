@@ -11,7 +11,7 @@
 
 /// How often a random case is repeated: `usual` times, or `sanitized` times under sanitizers, where
 /// each takes ten times as long and what is looked for is not a rare number.
-constexpr int repetitions(int usual, [[maybe_unused]] int sanitized) {
+constexpr int repetitions([[maybe_unused]] int usual, [[maybe_unused]] int sanitized) {
 #ifdef TALUS_SANITIZED
     return sanitized;
 #else
