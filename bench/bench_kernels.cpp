@@ -2,7 +2,7 @@
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/delassus_sparse.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/spatial/local_frame.hpp>
 
 #include <benchmark/benchmark.h>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "solver_registry.hpp"
 
-#include <talus/solver/accelerated_gauss_seidel.hpp>
-#include <talus/solver/admm.hpp>
 #include <talus/solver/automatic.hpp>
-#include <talus/solver/extragradient.hpp>
-#include <talus/solver/gauss_seidel.hpp>
-#include <talus/solver/inexact_interior_point.hpp>
-#include <talus/solver/interior_point.hpp>
-#include <talus/solver/projected_gradient.hpp>
-#include <talus/solver/proximal_newton.hpp>
+#include <talus/solver/cones/admm.hpp>
+#include <talus/solver/cones/extragradient.hpp>
+#include <talus/solver/cones/inexact_interior_point.hpp>
+#include <talus/solver/cones/interior_point.hpp>
+#include <talus/solver/cones/projected_gradient.hpp>
+#include <talus/solver/cones/proximal_newton.hpp>
+#include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #ifdef TALUS_BENCH_SICONOS
 #include "peer_siconos.hpp"
 #endif

@@ -4,15 +4,15 @@
 #include <talus/core/input.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/matrix_problem.hpp>
-#include <talus/solver/accelerated_gauss_seidel.hpp>
-#include <talus/solver/admm.hpp>
 #include <talus/solver/automatic.hpp>
-#include <talus/solver/extragradient.hpp>
-#include <talus/solver/gauss_seidel.hpp>
-#include <talus/solver/inexact_interior_point.hpp>
-#include <talus/solver/interior_point.hpp>
-#include <talus/solver/projected_gradient.hpp>
-#include <talus/solver/proximal_newton.hpp>
+#include <talus/solver/cones/admm.hpp>
+#include <talus/solver/cones/extragradient.hpp>
+#include <talus/solver/cones/inexact_interior_point.hpp>
+#include <talus/solver/cones/interior_point.hpp>
+#include <talus/solver/cones/projected_gradient.hpp>
+#include <talus/solver/cones/proximal_newton.hpp>
+#include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include <array>
 #include <span>

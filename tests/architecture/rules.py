@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: BSL-1.0
 """usage: rules.py ROOT    checks the sources below ROOT and names file, line and offence.
 
-The layering rule: a header includes its own folder and the folders listed for it, nothing else.
+The layering rule: a header includes its own room and what is listed for it, nothing else. A room is
+a folder of include/talus, or a folder within one; a list names rooms, or single headers of a room.
 """
 import pathlib
 import re
 import sys
 
 PHYSICS = {"core", "spatial", "geometry", "collision", "dynamics"}
-ALGEBRA = {"core", "law", "problem", "solver"}
+ALGEBRA = {"core", "law", "problem", "linear", "solver", "solver/sweeps", "solver/cones", "solver/oracle"}
+# What the rooms of `solver` may know of its top: what a solver is, and what it reports.
+SOLVER = {"core", "law", "problem", "solver/concepts", "solver/report"}
 LAYERS = {
     "core": set(),
     "spatial": {"core"},
@@ -16,7 +19,11 @@ LAYERS = {
     "problem": {"core", "law"},
     "geometry": {"core", "spatial"},
     "dynamics": {"core", "spatial"},
-    "solver": {"core", "law", "problem"},
+    "linear": {"core"},
+    "solver/sweeps": SOLVER,
+    "solver/cones": SOLVER | {"linear", "solver/sweeps"},
+    "solver/oracle": SOLVER | {"linear", "solver/cones"},
+    "solver": ALGEBRA,
     "collision": {"core", "spatial", "geometry"},
     "assembly": {"core", "spatial", "collision", "dynamics", "law", "problem"},
     "stepping": PHYSICS | ALGEBRA | {"assembly"},
@@ -25,6 +32,7 @@ LAYERS = {
     "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
 }
 LONGEST_HEADER = 400
+MOST_HEADERS = 18
 KNOWS_DIMENSION = {"core", "spatial", "geometry", "collision"}
 KNOWS_STEP_SIZE = {"assembly/free_velocity.hpp", "stepping"}
 MAY_WRITE = {"io"}
@@ -85,11 +93,14 @@ class Tree:
     def check(self):
         bib = self.include / "references.bib"
         self.keys = set(re.findall(r"@\w+\s*\{\s*([^,\s]+)\s*,", bib.read_text())) if bib.exists() else set()
-        for folder in sorted(p for p in self.include.iterdir() if p.is_dir()):
-            if folder.name not in LAYERS:
+        for folder in sorted(p for p in self.include.rglob("*") if p.is_dir()):
+            if folder.relative_to(self.include).as_posix() not in LAYERS:
                 self.report(folder, 0, "folder unknown to the layering table")
             if not (folder / "README.md").exists():
                 self.report(folder, 0, "folder without README.md")
+            headers = len(list(folder.glob("*.hpp")))
+            if headers > MOST_HEADERS:
+                self.report(folder, 0, f"{headers} headers in one room, more than {MOST_HEADERS}")
         for path in sorted(self.include.rglob("*.hpp")):
             self.check_header(path)
         for part in ("include", "tests", "examples", "bench", "validation"):
@@ -106,13 +117,14 @@ class Tree:
     def check_header(self, path):
         text, relative = path.read_text(), path.relative_to(self.include)
         name = relative.as_posix()
-        folder = relative.parts[0] if len(relative.parts) > 1 else ""
+        room = "" if relative.parent == pathlib.PurePath() else relative.parent.as_posix()
+        folder = room.split("/")[0]
         lines = text.splitlines()
         if len(lines) > LONGEST_HEADER:
             self.report(path, len(lines), f"header longer than {LONGEST_HEADER} lines")
         if lines[1:2] != ["#pragma once"]:
             self.report(path, 2, "second line is not '#pragma once'")
-        self.check_includes(path, text, folder)
+        self.check_includes(path, text, room)
         code = without_comments(text)
         if folder not in KNOWS_DIMENSION:
             for pattern, what in DIMENSION_BRANCH:
@@ -128,15 +140,17 @@ class Tree:
             if match.group(1) not in self.keys:
                 self.report(path, line_of(text, match.start()), f"{match.group(1)} is not in references.bib")
 
-    def check_includes(self, path, text, folder):
+    def check_includes(self, path, text, room):
+        allowed = LAYERS.get(room, set()) | {room}
         for match in re.finditer(r'^#\s*include\s*([<"])([^>"]+)[>"]', text, re.MULTILINE):
             line, target = line_of(text, match.start()), match.group(2)
             if match.group(1) == '"':
                 self.report(path, line, f'include written with quotes: "{target}"')
-            elif target.startswith("talus/") and folder:
-                other = target.split("/")[1]
-                if other != folder and other not in LAYERS.get(folder, set()):
-                    self.report(path, line, f"layering: {folder} -> {other}")
+            elif target.startswith("talus/") and room:
+                header = target.removeprefix("talus/").removesuffix(".hpp")
+                other = header.rpartition("/")[0] or target.removeprefix("talus/")
+                if other not in allowed and header not in allowed:
+                    self.report(path, line, f"layering: {room} -> {other}")
 
 
 if __name__ == "__main__":

@@ -19,7 +19,8 @@ def violations(name, text, head=HEAD, bib="@book{Moreau2000,\n}\n", readme=True)
         path.parent.mkdir(parents=True)
         path.write_text(head + text)
         if readme:
-            (path.parent / "README.md").write_text("")
+            for folder in path.relative_to(include).parents[:-1]:
+                (include / folder / "README.md").write_text("")
         (include / "references.bib").write_text(bib)
         return rules.Tree(root).check()
 
@@ -43,6 +44,24 @@ class Rules(unittest.TestCase):
     def test_the_columns_do_not_meet_below_assembly(self):
         for low, high in (("solver", "dynamics"), ("collision", "law"), ("problem", "solver"), ("io", "stepping")):
             self.rejects(f"{low}/a.hpp", f"#include <talus/{high}/b.hpp>\n", 3, f"{low} -> {high}")
+
+    def test_rooms_within_a_folder_are_layered(self):
+        self.rejects("linear/a.hpp", "#include <talus/law/coulomb.hpp>\n", 3, "linear -> law")
+        self.rejects("solver/sweeps/a.hpp", "#include <talus/solver/cones/b.hpp>\n", 3, "sweeps -> solver/cones")
+        self.rejects("solver/cones/a.hpp", "#include <talus/solver/automatic.hpp>\n", 3, "cones -> solver")
+        self.rejects("assembly/a.hpp", "#include <talus/solver/sweeps/b.hpp>\n", 3, "assembly -> solver/sweeps")
+        self.accepts("solver/cones/a.hpp", "#include <talus/solver/report.hpp>\n#include <talus/linear/b.hpp>\n")
+        self.accepts("stepping/a.hpp", "#include <talus/solver/sweeps/b.hpp>\n")
+
+    def test_crowded_rooms_are_reported(self):
+        with tempfile.TemporaryDirectory() as root:
+            law = pathlib.Path(root) / "include" / "talus" / "law"
+            law.mkdir(parents=True)
+            (law / "README.md").write_text("")
+            for k in range(19):
+                (law / f"a{k}.hpp").write_text(HEAD)
+            self.assertEqual(rules.Tree(root).check(),
+                             ["include/talus/law:0: 19 headers in one room, more than 18"])
 
     def test_the_umbrella_is_not_for_headers(self):
         self.rejects("law/a.hpp", "#include <talus/talus.hpp>\n", 3, "law -> talus.hpp")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/solver/accelerated_gauss_seidel.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/delassus_sparse.hpp>
-#include <talus/solver/cone_system.hpp>
+#include <talus/solver/cones/cone_system.hpp>
 
 #include <Eigen/LU>
 

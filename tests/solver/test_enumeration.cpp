@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/bilateral.hpp>
-#include <talus/solver/enumeration.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/oracle/enumeration.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include <cmath>
 #include <numbers>

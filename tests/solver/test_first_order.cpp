@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/solver/admm.hpp>
 #include <talus/solver/concepts.hpp>
-#include <talus/solver/extragradient.hpp>
-#include <talus/solver/projected_gradient.hpp>
+#include <talus/solver/cones/admm.hpp>
+#include <talus/solver/cones/extragradient.hpp>
+#include <talus/solver/cones/projected_gradient.hpp>
 
 #include <boost/test/unit_test.hpp>
 

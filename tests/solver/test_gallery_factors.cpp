@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/solver/interior_point.hpp>
-#include <talus/solver/newton_polish.hpp>
+#include <talus/solver/cones/interior_point.hpp>
+#include <talus/solver/cones/newton_polish.hpp>
 
 #include <boost/test/unit_test.hpp>
 

@@ -2,7 +2,7 @@
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
 #include <talus/problem/delassus_sparse.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include <Eigen/LU>
 

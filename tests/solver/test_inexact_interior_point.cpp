@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/solver/inexact_interior_point.hpp>
+#include <talus/solver/cones/inexact_interior_point.hpp>
 
 #include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>

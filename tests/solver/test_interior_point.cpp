@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/solver/gauss_seidel.hpp>
-#include <talus/solver/interior_point.hpp>
-#include <talus/solver/newton_polish.hpp>
+#include <talus/solver/cones/interior_point.hpp>
+#include <talus/solver/cones/newton_polish.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/bilateral.hpp>
-#include <talus/solver/gauss_seidel.hpp>
-#include <talus/solver/proximal_newton.hpp>
+#include <talus/solver/cones/proximal_newton.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"

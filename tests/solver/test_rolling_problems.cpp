@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/rolling_coulomb.hpp>
 #include <talus/problem/matrix_problem.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include <boost/test/unit_test.hpp>
 

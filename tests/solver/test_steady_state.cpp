@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/collision/hierarchical_grid.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include "common/allocation_counter.hpp"
 #include "common/dimensions.hpp"

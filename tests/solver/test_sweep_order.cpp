@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/solver/sweep_order.hpp>
+#include <talus/solver/sweeps/sweep_order.hpp>
 
 #include <boost/test/unit_test.hpp>
 

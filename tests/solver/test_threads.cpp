@@ -3,7 +3,7 @@
 // that: the bits of a solve must not depend on the number of threads.
 #include <talus/law/coulomb.hpp>
 #include <talus/solver/automatic.hpp>
-#include <talus/solver/interior_point.hpp>
+#include <talus/solver/cones/interior_point.hpp>
 
 #include <boost/test/unit_test.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <talus/assembly/contact_jacobian.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
 #include <talus/stepping/step_hooks.hpp>
 

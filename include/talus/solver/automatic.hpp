@@ -3,14 +3,14 @@
 
 #include <talus/core/input.hpp>
 #include <talus/law/cone_of.hpp>
-#include <talus/solver/accelerated_gauss_seidel.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/cones/interior_point.hpp>
+#include <talus/solver/cones/newton_polish.hpp>
+#include <talus/solver/cones/overlap_certificate.hpp>
+#include <talus/solver/cones/projected_gradient.hpp>
+#include <talus/solver/cones/proximal_newton.hpp>
 #include <talus/solver/impulse_memory.hpp>
-#include <talus/solver/interior_point.hpp>
-#include <talus/solver/newton_polish.hpp>
-#include <talus/solver/overlap_certificate.hpp>
-#include <talus/solver/projected_gradient.hpp>
-#include <talus/solver/proximal_newton.hpp>
+#include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include <Eigen/Core>
 

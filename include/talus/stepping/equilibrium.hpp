@@ -3,7 +3,7 @@
 
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/input.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
 
 #include <algorithm>

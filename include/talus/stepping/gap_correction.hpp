@@ -4,7 +4,7 @@
 #include <talus/assembly/apply_impulses.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
 #include <talus/law/signorini.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/step_data.hpp>
 #include <talus/stepping/system.hpp>
 

@@ -4,7 +4,7 @@
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/observer.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/gap_correction.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <talus/core/types.hpp>
-#include <talus/solver/cone_engine.hpp>
+#include <talus/solver/cones/cone_engine.hpp>
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 
 #include <talus/core/input.hpp>
 #include <talus/core/types.hpp>
-#include <talus/solver/cone_engine.hpp>
+#include <talus/solver/cones/cone_engine.hpp>
 
 #include <Eigen/Core>
 

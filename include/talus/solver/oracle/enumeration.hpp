@@ -2,9 +2,9 @@
 #pragma once
 
 #include <talus/core/input.hpp>
-#include <talus/solver/cone_engine.hpp>
-#include <talus/solver/slip_angle.hpp>
-#include <talus/solver/status_search.hpp>
+#include <talus/solver/cones/cone_engine.hpp>
+#include <talus/solver/oracle/slip_angle.hpp>
+#include <talus/solver/oracle/status_search.hpp>
 
 #include <Eigen/Core>
 

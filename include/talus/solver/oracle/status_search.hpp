@@ -2,7 +2,7 @@
 #pragma once
 
 #include <talus/core/types.hpp>
-#include <talus/solver/slip_angle.hpp>
+#include <talus/solver/oracle/slip_angle.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

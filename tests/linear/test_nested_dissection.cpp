@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/solver/block_lu.hpp>
-#include <talus/solver/elimination_tree.hpp>
-#include <talus/solver/nested_dissection.hpp>
+#include <talus/linear/block_lu.hpp>
+#include <talus/linear/elimination_tree.hpp>
+#include <talus/linear/nested_dissection.hpp>
 
 #include <boost/test/unit_test.hpp>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <talus/core/check.hpp>
-#include <talus/solver/elimination_tree.hpp>
-#include <talus/solver/nested_dissection.hpp>
+#include <talus/linear/elimination_tree.hpp>
+#include <talus/linear/nested_dissection.hpp>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>

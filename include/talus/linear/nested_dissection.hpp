@@ -2,8 +2,8 @@
 #pragma once
 
 #include <talus/core/check.hpp>
-#include <talus/solver/node_graph.hpp>
-#include <talus/solver/vertex_separator.hpp>
+#include <talus/linear/node_graph.hpp>
+#include <talus/linear/vertex_separator.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/solver/node_graph.hpp>
+#include <talus/linear/node_graph.hpp>
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <talus/problem/matrix_problem.hpp>
 #include <talus/problem/residual.hpp>
 #include <talus/solver/concepts.hpp>
-#include <talus/solver/cone_system.hpp>
+#include <talus/solver/cones/cone_system.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -6,8 +6,8 @@
 #include <talus/core/observer.hpp>
 #include <talus/problem/delassus_product.hpp>
 #include <talus/solver/concepts.hpp>
-#include <talus/solver/sweep_kernel.hpp>
-#include <talus/solver/sweep_order.hpp>
+#include <talus/solver/sweeps/sweep_kernel.hpp>
+#include <talus/solver/sweeps/sweep_order.hpp>
 
 #include <algorithm>
 #include <cmath>

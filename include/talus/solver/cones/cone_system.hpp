@@ -2,9 +2,9 @@
 #pragma once
 
 #include <talus/law/friction_cone.hpp>
+#include <talus/linear/block_lu.hpp>
 #include <talus/problem/body_map.hpp>
 #include <talus/problem/residual.hpp>
-#include <talus/solver/block_lu.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

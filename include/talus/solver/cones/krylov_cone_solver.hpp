@@ -2,9 +2,9 @@
 #pragma once
 
 #include <talus/core/types.hpp>
-#include <talus/solver/bicgstab.hpp>
-#include <talus/solver/block_ilu.hpp>
-#include <talus/solver/cone_system.hpp>
+#include <talus/linear/bicgstab.hpp>
+#include <talus/linear/block_ilu.hpp>
+#include <talus/solver/cones/cone_system.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

@@ -6,7 +6,7 @@
 #include <talus/problem/delassus_product.hpp>
 #include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/concepts.hpp>
-#include <talus/solver/sweep_kernel.hpp>
+#include <talus/solver/sweeps/sweep_kernel.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

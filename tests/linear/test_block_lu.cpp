@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/solver/block_lu.hpp>
+#include <talus/linear/block_lu.hpp>
 
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>

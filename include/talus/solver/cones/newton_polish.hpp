@@ -2,8 +2,8 @@
 #pragma once
 
 #include <talus/core/types.hpp>
-#include <talus/solver/central_pair.hpp>
-#include <talus/solver/cone_engine.hpp>
+#include <talus/solver/cones/central_pair.hpp>
+#include <talus/solver/cones/cone_engine.hpp>
 
 #include <Eigen/Core>
 

@@ -3,8 +3,8 @@
 
 #include <talus/core/types.hpp>
 #include <talus/law/signorini.hpp>
-#include <talus/solver/cone_system.hpp>
-#include <talus/solver/gauss_seidel.hpp>
+#include <talus/solver/cones/cone_system.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/solver/interior_point.hpp>
-#include <talus/solver/krylov_cone_solver.hpp>
+#include <talus/solver/cones/interior_point.hpp>
+#include <talus/solver/cones/krylov_cone_solver.hpp>
 
 #include <Eigen/Core>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <talus/core/check.hpp>
-#include <talus/solver/frontal_plan.hpp>
-#include <talus/solver/serial_product.hpp>
+#include <talus/linear/frontal_plan.hpp>
+#include <talus/linear/serial_product.hpp>
 
 #include <Eigen/Core>
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <talus/core/types.hpp>
-#include <talus/solver/central_pair.hpp>
-#include <talus/solver/cone_engine.hpp>
-#include <talus/solver/overlap_certificate.hpp>
+#include <talus/solver/cones/central_pair.hpp>
+#include <talus/solver/cones/cone_engine.hpp>
+#include <talus/solver/cones/overlap_certificate.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -48,8 +48,8 @@ struct ProximalNewtonParams {
 /// [GrippoEtAl1986]. Steps that stop short are kept if the residual fell.
 ///
 /// Where that stops twice, as it does where many contacts are on the border of two statuses, the
-/// solver begins anew with the smooth pairs of solver/central_pair.hpp, whose sqrt(eps) is the
-/// outer error: u = W r + q alone is left to Newton. Begun where the first equations ended they
+/// solver begins anew with the smooth pairs of solver/cones/central_pair.hpp, whose sqrt(eps) is
+/// the outer error: u = W r + q alone is left to Newton. Begun where the first equations ended they
 /// gain nothing: they must come along the middle of the cones. After six stops more the first
 /// equations go on from the best impulses: they are the better ones for a friction of 1e3.
 ///
