@@ -96,7 +96,7 @@ void step(benchmark::State& state) {
 /// Warm steps of a pile at rest to the residual 10^-k.
 template <int Dim>
 void step_at_rest(benchmark::State& state) {
-    using Simulation = talus::Simulation<Dim, talus::Coulomb<Dim>>;
+    using Simulation = talus::Simulation<Dim, bench::Types<Dim>>;
     static std::map<std::int64_t, std::unique_ptr<Simulation>> piles;
     auto& sim = piles[state.range(0)];
     if (!sim) {

@@ -19,6 +19,12 @@ namespace bench {
 
 constexpr double step_length = 1e-3;  // h [s]
 
+/// Simulations with the law of the benches.
+template <int Dim>
+struct Types : talus::SimulationTypes<Dim> {
+    using Law = bench::Law<Dim>;
+};
+
 template <int Dim>
 using Vec = talus::Vector<Dim>;
 template <int Dim>
@@ -72,7 +78,7 @@ const talus::Scene<Dim>& settled_scene(std::size_t contacts, std::uint64_t seed)
     talus::SimulationParams settings;
     settings.h = step_length;
     settings.step.scheme = talus::Scheme::gap_anticipating;
-    talus::Simulation<Dim, Law<Dim>> sim(boxed(scene, true), settings);
+    talus::Simulation<Dim, Types<Dim>> sim(boxed(scene, true), settings);
     sim.solver().params.tolerance = 1e-3;
     sim.solver().params.max_sweeps = 200;
     const double rest = 1e-3 * std::sqrt(scene.gravity * params.width);  // [m/s]
@@ -107,7 +113,7 @@ const talus::Scene<Dim>& resting_scene(std::size_t contacts, std::uint64_t seed)
     settings.step.scheme = talus::Scheme::gap_anticipating;
     talus::Scene<Dim> slippery = scene;
     slippery.mu *= 0.8;
-    talus::Simulation<Dim, Law<Dim>> sim(boxed(slippery, true), settings);
+    talus::Simulation<Dim, Types<Dim>> sim(boxed(slippery, true), settings);
     sim.solver().params.tolerance = 1e-6;
     sim.solver().params.max_sweeps = 100;
     constexpr double kept = 0.97;

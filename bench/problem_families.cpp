@@ -173,15 +173,6 @@ Situation<Dim> pile(std::size_t contacts, std::uint64_t seed, bool right_wall) {
 
 // --- from a situation to a problem ---------------------------------------------------------------
 
-/// Leaves the impulses at zero: a step with it assembles its problem, and nothing else.
-struct NoSolver {
-    template <class Problem, class Impulses>
-    const talus::SolveReport& solve(const Problem&, const Impulses&) {
-        return report;
-    }
-    talus::SolveReport report;
-};
-
 /// The problem of one step, gravity turned from the vertical by `tilt` [rad] towards the first
 /// axis.
 template <int Dim>
@@ -190,8 +181,7 @@ talus::ContactProblem<Dim, Law<Dim>> problem_of(Situation<Dim> s, double tilt) {
         gravity * (std::sin(tilt) * Vec<Dim>::Unit(0) - std::cos(tilt) * Vec<Dim>::Unit(Dim - 1));
     talus::MoreauMidpoint<Dim, Law<Dim>, talus::AnyShape<Dim>, talus::HierarchicalGrid<Dim>> step;
     talus::StepData<Dim, Law<Dim>> data;
-    NoSolver none;
-    step.step(s.world, 0.0, h, s.step, none, data);
+    step.pose_problem(s.world, 0.0, h, s.step, data);
     return std::move(data.problem);
 }
 

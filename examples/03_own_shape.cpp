@@ -16,9 +16,7 @@ struct Ellipse {
     double a, b;  ///< [m]
 
     talus::Vector<Dim> axes() const {
-        talus::Vector<Dim> s = talus::Vector<Dim>::Constant(a);
-        s[Dim - 1] = b;
-        return s;
+        return a * talus::Vector<Dim>::Ones() + (b - a) * talus::Vector<Dim>::Unit(Dim - 1);
     }
     talus::Vector<Dim> support(const talus::Vector<Dim>& d) const {
         const talus::Vector<Dim> scaled = axes().cwiseProduct(d);
@@ -26,24 +24,28 @@ struct Ellipse {
     }
     talus::Aabb<Dim> aabb(const talus::Pose<Dim>& pose) const {
         talus::Vector<Dim> reach;
-        for (int k = 0; k < Dim; ++k)
-            reach[k] = axes()
-                           .cwiseProduct(pose.rotation.transpose_times(talus::Vector<Dim>::Unit(k)))
-                           .norm();
+        for (int k = 0; k < Dim; ++k) {
+            const auto axis = pose.rotation.transpose_times(talus::Vector<Dim>::Unit(k));
+            reach[k] = axes().cwiseProduct(axis).norm();
+        }
         return {pose.position - reach, pose.position + reach};
     }
 };
 static_assert(talus::ConvexShape<Ellipse<3>, 3>);
 
 template <int Dim>
+struct WithEllipses : talus::SimulationTypes<Dim> {
+    using Shape = talus::AnyShapeOf<Dim, Ellipse<Dim>, talus::HalfSpace<Dim>>;
+};
+
+template <int Dim>
 void rock() {
     using namespace talus;
-    using Shapes = AnyShapeOf<Dim, Ellipse<Dim>, HalfSpace<Dim>>;
     const double a = 0.2, b = 0.1, m = 1.0, g = 9.81, h = 2e-4;
     const double moment = m * (a * a + b * b) / (Dim == 2 ? 4 : 5);  // about the rocking axis
     const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
 
-    Simulation<Dim, DefaultLaw<Dim>, Shapes> sim({Coulomb<Dim>{.mu = 1.0}}, {.h = h});
+    Simulation<Dim, WithEllipses<Dim>> sim({Coulomb<Dim>{.mu = 1.0}}, {.h = h});
     auto& system = sim.system();
     system.gravity = -g * up;
     system.add_obstacle(HalfSpace<Dim>{up, 0.0});

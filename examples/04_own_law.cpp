@@ -36,12 +36,17 @@ struct WetContact {
 static_assert(talus::ContactLaw<WetContact<2>, 2> && talus::ContactLaw<WetContact<3>, 3>);
 
 template <int Dim>
+struct Wet : talus::SimulationTypes<Dim> {
+    using Law = WetContact<Dim>;
+};
+
+template <int Dim>
 void slide() {
     using namespace talus;
     const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
     const double mass = 2.0, drag = 0.05, never = std::numeric_limits<double>::infinity();
 
-    Simulation<Dim, WetContact<Dim>> sim({drag}, {.h = 1e-2, .step = {.contact_tolerance = 1e-9}});
+    Simulation<Dim, Wet<Dim>> sim({drag}, {.h = 1e-2, .step = {.contact_tolerance = 1e-9}});
     auto& system = sim.system();
     system.gravity = -9.81 * up;
     system.add_obstacle(HalfSpace<Dim>{up, 0.0});

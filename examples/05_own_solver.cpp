@@ -41,12 +41,15 @@ struct Jacobi {
     }
 };
 
+template <int Dim, template <int, class> class Chosen>
+struct With : talus::SimulationTypes<Dim> {
+    using Solver = Chosen<Dim, talus::DefaultLaw<Dim>>;
+};
+
 template <int Dim, template <int, class> class Solver>
 void heap(const char* name) {
     using namespace talus;
-    using Law = DefaultLaw<Dim>;
-    Simulation<Dim, Law, AnyShape<Dim>, Solver<Dim, Law>> sim({Coulomb<Dim>{0.4}}, {.h = 1e-3});
-    sim.solver() = Solver<Dim, Law>();
+    Simulation<Dim, With<Dim, Solver>> sim({Coulomb<Dim>{0.4}}, {.h = 1e-3});
     auto& system = sim.system();
     const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
     system.gravity = -9.81 * up;

@@ -11,6 +11,7 @@
 #include <talus/io/scene_file.hpp>
 #include <talus/sample/granulometry.hpp>
 #include <talus/sample/random_scene.hpp>
+#include <talus/stepping/gap_correction.hpp>
 #include <talus/stepping/simulation.hpp>
 
 #include <cmath>
@@ -46,14 +47,21 @@ talus::Scene<Dim> make_scene(const Options& o) {
 }
 
 template <int Dim>
-talus::Simulation<Dim> make_simulation(const talus::Scene<Dim>& scene, const Options& o) {
+struct PileTypes : talus::SimulationTypes<Dim> {
+    using GapCorrection = talus::GapCorrection<Dim>;
+};
+template <int Dim>
+using Pile = talus::Simulation<Dim, PileTypes<Dim>>;
+
+template <int Dim>
+Pile<Dim> make_simulation(const talus::Scene<Dim>& scene, const Options& o) {
     using namespace talus;
     SimulationParams params;
     params.h = o.step;
     params.step.scheme = o.scheme == "midpoint" ? Scheme::midpoint : Scheme::gap_anticipating;
     params.step.gyroscopic = Gyroscopic::momentum_preserving;
-    params.gap_correction.fraction = o.correction;
-    Simulation<Dim> sim({{o.mu.value_or(scene.mu)}, o.restitution, 0.0}, params);
+    Pile<Dim> sim({{o.mu.value_or(scene.mu)}, o.restitution, 0.0}, params);
+    sim.gap_correction().params.fraction = o.correction;
     sim.solver().params.tolerance = o.tolerance;
     sim.solver().params.max_sweeps = static_cast<int>(o.max_sweeps);
 

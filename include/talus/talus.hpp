@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-/// Everything but io: for examples and short programs. Library headers include what they use.
+/// What programs of rigid bodies are written with: shapes, laws, simulations with Gauss-Seidel, the
+/// equilibrium test, measures. For examples and short programs; library headers include what they
+/// use. Apart, since few programs need them and they cost as much again to compile: the solvers
+/// that treat all contacts at once (solver/automatic.hpp, solver/any_solver.hpp), problems given by
+/// matrices (problem/matrix_problem.hpp), correction of positions (stepping/gap_correction.hpp),
+/// and the folders sample and io.
 #include <talus/collision/brute_force.hpp>
 #include <talus/core/version.hpp>
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
 #include <talus/law/cohesive.hpp>
-#include <talus/law/rolling_coulomb.hpp>
 #include <talus/law/signorini.hpp>
 #include <talus/measure/energy_ledger.hpp>
+#include <talus/measure/fabric.hpp>
 #include <talus/measure/grain_load.hpp>
 #include <talus/measure/momentum.hpp>
 #include <talus/measure/penetration.hpp>
-#include <talus/problem/body_map.hpp>
-#include <talus/problem/delassus_sparse.hpp>
-#include <talus/problem/matrix_problem.hpp>
-#include <talus/solver/automatic.hpp>
+#include <talus/measure/stress.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>

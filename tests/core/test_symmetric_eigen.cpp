@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/core/symmetric_eigen.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>

@@ -3,6 +3,7 @@
 
 #include <talus/geometry/ball.hpp>
 #include <talus/geometry/half_space.hpp>
+#include <talus/stepping/gap_correction.hpp>
 #include <talus/stepping/simulation.hpp>
 
 #include <cmath>

@@ -7,13 +7,20 @@
 
 namespace experiment {
 
+/// With correction of positions.
+template <int Dim>
+struct Corrected : talus::SimulationTypes<Dim> {
+    using GapCorrection = talus::GapCorrection<Dim>;
+};
+
 /// Balls of radius 0.04 to 0.06 on a loose jittered lattice, `wide` per horizontal axis and `high`
 /// layers, in a box with friction everywhere. The box is made of half-spaces.
-template <int Dim>
-talus::Simulation<Dim> heap(int wide, int high, const talus::DefaultLaw<Dim>& contact_law, double h,
-                            talus::SimulationParams params = {}, double size = 1.0) {
+template <int Dim, class Types = talus::SimulationTypes<Dim>>
+talus::Simulation<Dim, Types> heap(int wide, int high, const talus::DefaultLaw<Dim>& contact_law,
+                                   double h, talus::SimulationParams params = {},
+                                   double size = 1.0) {
     params.h = h;
-    talus::Simulation<Dim> sim(contact_law, params);
+    talus::Simulation<Dim, Types> sim(contact_law, params);
     auto& system = sim.system();
     system.gravity = -g * up<Dim>();
     const double pitch = 0.13, width = pitch * wide;

@@ -21,8 +21,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_steady_step_allocates_nothing, D, dimensions) {
     for (auto scheme : {talus::Scheme::midpoint, talus::Scheme::gap_anticipating}) {
         talus::SimulationParams params;
         params.step.scheme = scheme;
-        params.gap_correction.fraction = 0.1;
-        auto sim = heap<Dim>(Dim == 2 ? 6 : 3, 5, law<Dim>(0.4), 2e-3, params);
+        auto sim = heap<Dim, Corrected<Dim>>(Dim == 2 ? 6 : 3, 5, law<Dim>(0.4), 2e-3, params);
+        sim.gap_correction().params.fraction = 0.1;
         sim.run(2.0);
         const long before = allocation_count;
         sim.run(0.1);

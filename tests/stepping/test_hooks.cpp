@@ -23,7 +23,7 @@ struct Diary : talus::NoHooks {
     void matrices_known(auto&, auto& data) {
         note("matrices", data.problem.jacobian.contact_count());
     }
-    void forces_known(auto&, auto& data) { note("forces", data.end.size()); }
+    void forces_known(auto&, auto& data) { note("forces", data.free.size()); }
     void problem_known(auto&, auto& data) { note("problem", data.problem.free_velocity.size()); }
     void solved(auto&, auto& data) { note("solved", data.impulse.size()); }
     void velocities_known(auto&, auto& data) { note("velocities", data.end.size()); }
@@ -41,9 +41,13 @@ struct Twice : talus::NoHooks {
     }
 };
 
+template <class HooksType>
+struct Types : talus::SimulationTypes<2> {
+    using Shape = Shapes;
+    using Hooks = HooksType;
+};
 template <class Hooks>
-using Sim = talus::Simulation<2, Law, Shapes, talus::GaussSeidel<2, Law>,
-                              talus::HierarchicalGrid<2>, Hooks>;
+using Sim = talus::Simulation<2, Types<Hooks>>;
 
 template <class Hooks>
 Sim<Hooks> resting_ball() {

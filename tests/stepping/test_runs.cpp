@@ -16,9 +16,9 @@ BOOST_AUTO_TEST_SUITE(stepping_runs)
 
 using namespace experiment;
 
-template <int Dim>
-talus::Simulation<Dim> small_heap(double e = 0.0, talus::SimulationParams params = {}) {
-    return heap<Dim>(Dim == 2 ? 6 : 3, Dim == 2 ? 6 : 4, law<Dim>(0.4, e), 2e-3, params);
+template <int Dim, class Types = talus::SimulationTypes<Dim>>
+talus::Simulation<Dim, Types> small_heap(double e = 0.0, talus::SimulationParams params = {}) {
+    return heap<Dim, Types>(Dim == 2 ? 6 : 3, Dim == 2 ? 6 : 4, law<Dim>(0.4, e), 2e-3, params);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(the_energy_books_close_in_every_run, D, dimensions) {
@@ -196,9 +196,7 @@ BOOST_AUTO_TEST_CASE(balls_confined_to_a_plane_move_as_discs) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_gap_correction_removes_overlap_without_making_energy, D,
                               dimensions) {
     constexpr int Dim = D::value;
-    talus::SimulationParams with;
-    with.gap_correction.fraction = 0.2;
-    auto corrected = small_heap<Dim>(0.0, with);
+    auto corrected = small_heap<Dim, Corrected<Dim>>();
     auto plain = small_heap<Dim>();
     talus::EnergyLedger<Dim> ledger(corrected.system().bodies, corrected.system().gravity);
     double highest = -1e9;
@@ -255,6 +253,10 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(settings_out_of_range_are_rejected, D, dimensions)
     BOOST_CHECK_THROW(sim.system().add(talus::Ball<Dim>{0.1}, -1.0, {}), talus::input_error);
     BOOST_CHECK_THROW(sim.system().add(talus::Ball<Dim>{0.1}, 1.0, {}, {}, 1), talus::input_error);
     BOOST_CHECK_EQUAL(sim.system().bodies.count(), 0u);
+    talus::Simulation<Dim, Corrected<Dim>> corrected(law<Dim>(0.4));
+    corrected.gap_correction().params.fraction = 1.5;
+    BOOST_CHECK_THROW(corrected.step(), talus::input_error);
+    BOOST_CHECK_EQUAL(corrected.step_count(), 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -48,9 +48,12 @@ class CohesiveBlock {
         return result;
     }
 
-    talus::Simulation<Dim, Contact, ShapeType<Dim>, Solver, talus::HierarchicalGrid<Dim>,
-                      FaultyHooks<Dim>>
-        simulation_;
+    struct Types : talus::SimulationTypes<Dim> {
+        using Law = Contact;
+        using Shape = ShapeType<Dim>;
+        using Hooks = FaultyHooks<Dim>;
+    };
+    talus::Simulation<Dim, Types> simulation_;
     double worst_residual_ = 0.0;
 };
 

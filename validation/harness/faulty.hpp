@@ -171,7 +171,7 @@ struct FaultyHooks : talus::NoHooks {
     void forces_known(System& system, Data& data) {
         if (fault == Fault::gyroscopic_dropped)
             for (std::size_t i = 0; i < data.gyroscopic.size(); ++i)
-                data.end[i].angular -= system.bodies.rotation[i].spin_world(data.gyroscopic[i]);
+                data.free[i].angular -= system.bodies.rotation[i].spin_world(data.gyroscopic[i]);
     }
     template <class System, class Data>
     void problem_known(System& system, Data& data) {

@@ -32,6 +32,9 @@ namespace {
 template <int Dim, class Solver, class Hooks>
 class EngineOf : public Engine<Dim> {
   public:
+    using SolverType = Solver;
+    using HooksType = Hooks;
+
     EngineOf(System<Dim> system, const talus::SimulationParams& params, Solver solver, Hooks hooks)
         : sim_(std::move(system), params, std::move(solver)) {
         sim_.hooks() = hooks;
@@ -47,8 +50,13 @@ class EngineOf : public Engine<Dim> {
     }
 
   private:
-    talus::Simulation<Dim, Law<Dim>, ShapeType<Dim>, Solver, talus::HierarchicalGrid<Dim>, Hooks>
-        sim_;
+    struct Types : talus::SimulationTypes<Dim> {
+        using Law = validation::Law<Dim>;
+        using Shape = ShapeType<Dim>;
+        using Solver = EngineOf::SolverType;
+        using Hooks = EngineOf::HooksType;
+    };
+    talus::Simulation<Dim, Types> sim_;
 };
 
 template <int Dim>

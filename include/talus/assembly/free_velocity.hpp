@@ -15,7 +15,7 @@ template <int Dim>
 AngularVector<Dim> gyroscopic_change(const Bodies<Dim>& bodies, std::size_t i, double h,
                                      Gyroscopic gyroscopic) {
     const AngularVector<Dim>& inverse = bodies.inverse_inertia[i];
-    if ((inverse.array() == inverse[0]).all() || !(inverse.minCoeff() > 0.0))
+    if (inverse == AngularVector<Dim>::Constant(inverse[0]) || !(inverse.minCoeff() > 0.0))
         return AngularVector<Dim>::Zero();
     const AngularVector<Dim> moments = bodies.inertia(i);
     if (gyroscopic == Gyroscopic::momentum_preserving)

@@ -105,7 +105,7 @@ double kinetic_energy(const Bodies<Dim>& bodies, std::size_t i) {
 template <int Dim>
 AngularMatrix<Dim> inverse_inertia_world(const Bodies<Dim>& bodies, std::size_t i) {
     const AngularVector<Dim>& principal = bodies.inverse_inertia[i];
-    if ((principal.array() == principal[0]).all())
+    if (principal == AngularVector<Dim>::Constant(principal[0]))
         return principal[0] * AngularMatrix<Dim>::Identity();
     return tensor_world<Dim>(bodies.rotation[i], principal);
 }

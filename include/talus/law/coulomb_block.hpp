@@ -45,7 +45,7 @@ class CoulombBlock {
     bool diagonal() const { return tangent_inverse_ > 0.0; }
 
   private:
-    using Tangent = Eigen::Matrix<double, Dim - 1, 1>;
+    using Tangent = SmallMatrix<Dim - 1, 1>;
     static constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
     Vector<Dim> diagonal_solution(double mu, const Vector<Dim>& u, const Vector<Dim>& r) const;
@@ -56,25 +56,22 @@ class CoulombBlock {
     }
     /// W r, from the parts of W that are kept.
     Vector<Dim> times(const Vector<Dim>& r) const {
-        const Tangent r_t = axes_.transpose() * r.template tail<Dim - 1>();
+        const Tangent r_t = axes_.transpose() * tangential(r);
         const double coupled = coupling_.dot(r_t);
         const Tangent u_t =
             stiffness_.cwiseProduct(r_t) + coupling_ * (r[0] + coupled * normal_inverse_);
         return in_contact_axes(normal_ * r[0] + coupled, u_t);
     }
     Vector<Dim> in_contact_axes(double r_n, const Tangent& r_t) const {
-        Vector<Dim> r;
-        r[0] = r_n;
-        r.template tail<Dim - 1>() = axes_ * r_t;
-        return r;
+        return in_local_frame(r_n, axes_ * r_t);
     }
 
-    double normal_ = 0.0;           ///< W_nn [1/kg]
-    double normal_inverse_ = 0.0;   ///< 1 / W_nn [kg]; 0 where W_nn is 0 to rounding
-    double tangent_inverse_ = 0.0;  ///< 1 / s [kg] if diagonal(), else 0
-    Tangent stiffness_;             ///< eigenvalues of S, ascending, rounding set to 0 [1/kg]
-    Tangent coupling_;              ///< W_tn in the eigenvectors of S [1/kg]
-    Eigen::Matrix<double, Dim - 1, Dim - 1> axes_;  ///< eigenvectors of S, in columns
+    double normal_ = 0.0;                 ///< W_nn [1/kg]
+    double normal_inverse_ = 0.0;         ///< 1 / W_nn [kg]; 0 where W_nn is 0 to rounding
+    double tangent_inverse_ = 0.0;        ///< 1 / s [kg] if diagonal(), else 0
+    Tangent stiffness_;                   ///< eigenvalues of S, ascending, rounding set to 0 [1/kg]
+    Tangent coupling_;                    ///< W_tn in the eigenvectors of S [1/kg]
+    SmallMatrix<Dim - 1, Dim - 1> axes_;  ///< eigenvectors of S, in columns
 };
 
 template <int Dim>
@@ -82,16 +79,21 @@ requires SpaceDimension<Dim> CoulombBlock<Dim>::CoulombBlock(const Matrix<Dim>& 
     : normal_(w(0, 0)) {
     const double rounding = 8.0 * epsilon * w.trace();
     if (w(0, 0) > epsilon * w.trace()) normal_inverse_ = 1.0 / w(0, 0);
-    const Tangent w_tn = w.template bottomLeftCorner<Dim - 1, 1>();
-    const SymmetricEigen<Dim - 1> eigen(w.template bottomRightCorner<Dim - 1, Dim - 1>() -
-                                        w_tn * (w_tn.transpose() * normal_inverse_));
+    Tangent w_tn;
+    SmallMatrix<Dim - 1, Dim - 1> s;
+    for (int i = 0; i < Dim - 1; ++i) w_tn[i] = w(i + 1, 0);
+    for (int i = 0; i < Dim - 1; ++i)
+        for (int j = 0; j < Dim - 1; ++j)
+            s(i, j) = w(i + 1, j + 1) - w_tn[i] * (w_tn[j] * normal_inverse_);
+    const SymmetricEigen<Dim - 1> eigen(s);
     axes_ = eigen.vectors;
     coupling_ = axes_.transpose() * w_tn;
     stiffness_ = eigen.values;
     // The elimination leaves errors of this size, of either sign.
-    stiffness_ = (stiffness_.array() > rounding).select(stiffness_, 0.0);
+    for (int i = 0; i < Dim - 1; ++i)
+        if (!(stiffness_[i] > rounding)) stiffness_[i] = 0.0;
     const bool isotropic = stiffness_[Dim - 2] - stiffness_[0] <= rounding;
-    if (isotropic) stiffness_.setConstant(stiffness_.mean());
+    if (isotropic) stiffness_.setConstant(stiffness_.sum() / (Dim - 1));
     if (isotropic && stiffness_[0] > 0.0 && normal_inverse_ > 0.0 && w_tn.norm() <= rounding)
         tangent_inverse_ = 1.0 / stiffness_[0];
 }
@@ -123,7 +125,7 @@ requires SpaceDimension<Dim> Vector<Dim> CoulombBlock<Dim>::general_solution(dou
 const {
     const double b_n = b[0];
     if (b_n >= 0.0 || normal_inverse_ == 0.0) return Vector<Dim>::Zero();
-    const Tangent b_t = axes_.transpose() * b.template tail<Dim - 1>();
+    const Tangent b_t = axes_.transpose() * tangential(b);
     const Tangent drag = coupling_ * (b_n * normal_inverse_);
     Tangent c = b_t - drag;
     Tangent r_t;
@@ -133,7 +135,8 @@ const {
     }
     r_t.setZero();
     const double root = slip_root(mu, b_n, c);
-    if (root > 0.0) r_t = -c.cwiseQuotient((stiffness_.array() - stiffness_[0] + root).matrix());
+    if (root > 0.0)
+        for (int i = 0; i < Dim - 1; ++i) r_t[i] = -(c[i] / (stiffness_[i] - stiffness_[0] + root));
     const double r_n = normal_impulse(b_n, r_t);
     // The last ulps of the root, put right: the impulse must lie in the cone, not next to it.
     const double length = r_t.norm();
@@ -166,7 +169,7 @@ double CoulombBlock<Dim>::slip_root(double mu, double b_n, const Tangent& c) con
     const double scale = c.norm() / -b_n;
     const double direct = normal_ / mu - coupling_.dot(c) / c.norm();  // h is linear: its root
     if (!(mu > 0.0) || !std::isfinite(direct * scale)) return 0.0;
-    const Tangent offset = stiffness_.array() - stiffness_[0];
+    const Tangent offset = stiffness_ - Tangent::Constant(stiffness_[0]);
     if (offset[Dim - 2] == 0.0) return direct * scale;
 
     double low = stiffness_[0];
@@ -178,8 +181,9 @@ double CoulombBlock<Dim>::slip_root(double mu, double b_n, const Tangent& c) con
     constexpr int enough = 100;  // bisection of the exponent range would need 64
     for (int k = 0; k < enough; ++k) {
         if (!(a > low && a < high)) a = low > 0.0 ? std::sqrt(low * high) : 1e-3 * high;
-        const Tangent r_t = -c.cwiseQuotient((offset.array() + a).matrix());
-        const Tangent slope_t = -r_t.cwiseQuotient((offset.array() + a).matrix());
+        const Tangent shifted = offset + Tangent::Constant(a);
+        const Tangent r_t = -c.cwiseQuotient(shifted);
+        const Tangent slope_t = -r_t.cwiseQuotient(shifted);
         const double square = r_t.squaredNorm();
         const double r_n = normal_impulse(b_n, r_t);
         const double length = std::sqrt(square);

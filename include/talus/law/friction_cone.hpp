@@ -12,7 +12,7 @@ namespace talus {
 /// [DeSaxceFeng1998].
 template <int Dim>
 requires SpaceDimension<Dim> Vector<Dim> de_saxce_corrected(Vector<Dim> u, double mu) {
-    u[0] += mu * u.template tail<Dim - 1>().norm();
+    u[0] += mu * tangential(u).norm();
     return u;
 }
 
@@ -24,15 +24,13 @@ struct FrictionCone {
     double mu = 0.0;  ///< slope: friction coefficient [-], finite, not negative
 
     bool contains(const Vector<Dim>& x) const {
-        return x[0] >= 0.0 && x.template tail<Dim - 1>().norm() <= mu * x[0];
+        return x[0] >= 0.0 && tangential(x).norm() <= mu * x[0];
     }
-    bool dual_contains(const Vector<Dim>& x) const {
-        return x[0] >= mu * x.template tail<Dim - 1>().norm();
-    }
+    bool dual_contains(const Vector<Dim>& x) const { return x[0] >= mu * tangential(x).norm(); }
 
     /// Nearest point of K. Homogeneous of degree one; no overflow for any finite mu.
     Vector<Dim> project(const Vector<Dim>& x) const {
-        const double t = x.template tail<Dim - 1>().norm();
+        const double t = tangential(x).norm();
         // The polar cone first: with mu = 0 and x_t = 0 both tests would accept x_n < 0.
         if (mu * t <= -x[0]) return Vector<Dim>::Zero();
         if (t <= mu * x[0]) return x;
@@ -40,10 +38,7 @@ struct FrictionCone {
         const double secant = mu < 1e100 ? std::sqrt(1.0 + mu * mu) : mu;
         const double cosine = 1.0 / secant, sine = mu / secant;
         const double length = cosine * x[0] + sine * t;  // along the generator below x
-        Vector<Dim> y;
-        y[0] = cosine * length;
-        y.template tail<Dim - 1>() = (sine * length / t) * x.template tail<Dim - 1>();
-        return y;
+        return in_local_frame(cosine * length, (sine * length / t) * tangential(x));
     }
 
     /// Nearest point of K*, by Moreau's decomposition  x = P_K*(x) - P_K(-x).

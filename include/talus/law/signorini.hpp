@@ -22,7 +22,9 @@ struct Signorini {
 
     NormalRow prepare(const Matrix<Rows>& w) const {
         const double inverse = w(0, 0) > 0.0 ? 1.0 / w(0, 0) : 0.0;
-        return {inverse, inverse * w.row(0).transpose()};
+        NormalRow row{inverse, {}};
+        for (int j = 0; j < Rows; ++j) row.row[j] = inverse * w(0, j);
+        return row;
     }
     Vector<Rows> improved(const NormalRow& w, const Vector<Rows>& u, const Vector<Rows>& r) const {
         Vector<Rows> result = Vector<Rows>::Zero();

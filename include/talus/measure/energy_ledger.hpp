@@ -110,7 +110,7 @@ class EnergyLedger {
             const Vector<Dim> u = u_a - u_b;
             const Vector<Dim>& r = step.impulse[c];
             flows_.restitution += r[0] * u[0];
-            flows_.friction += r.template tail<Dim - 1>().dot(u.template tail<Dim - 1>());
+            flows_.friction += tangential(r).dot(tangential(u));
             const InverseMass<Dim>& w = step.problem.inverse_mass;
             if (w.linear[a] == 0.0) flows_.walls -= r.dot(u_a);
             if (w.linear[b] == 0.0) flows_.walls += r.dot(u_b);

@@ -81,7 +81,7 @@ class DelassusProduct {
         Matrix<Dim> world = Matrix<Dim>::Zero();
         for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
             const Body& x = bodies_[static_cast<std::size_t>(body)];
-            const Eigen::Matrix<double, rotation_dof<Dim>, Dim> lever = moment_matrix<Dim>(arm);
+            const SmallMatrix<rotation_dof<Dim>, Dim> lever = moment_matrix<Dim>(arm);
             world += x.inverse_mass * Matrix<Dim>::Identity() +
                      lever.transpose() * (x.inverse_inertia * lever);
         }

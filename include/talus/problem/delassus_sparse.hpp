@@ -114,7 +114,7 @@ class DelassusSparse {
         for (std::size_t i = 0; i < jacobian.contact_count(); ++i)
             blocks.push_back({i, i, Matrix<Dim>::Zero()});
         for (std::size_t k = 0; k < contacts_of.size(); ++k) {
-            if (inverse_mass.linear[k] == 0.0 && inverse_mass.angular[k].isZero(0.0)) continue;
+            if (inverse_mass.linear[k] == 0.0 && inverse_mass.angular[k].is_zero()) continue;
             Eigen::Matrix<double, twist_dof<Dim>, twist_dof<Dim>> mobility;
             mobility.setZero();
             mobility.template topLeftCorner<Dim, Dim>().diagonal().setConstant(

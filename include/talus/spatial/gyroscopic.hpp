@@ -4,8 +4,6 @@
 #include <talus/core/cross.hpp>
 #include <talus/spatial/rotation.hpp>
 
-#include <Eigen/LU>
-
 #include <limits>
 
 namespace talus {
@@ -14,7 +12,7 @@ namespace talus {
 /// torque. Always so in the plane.
 template <int Dim>
 bool is_isotropic(const AngularVector<Dim>& principal) {
-    return (principal.array() == principal[0]).all();
+    return principal == AngularVector<Dim>::Constant(principal[0]);
 }
 
 /// The gyroscopic term of Euler's equations, I w' = - w x I w [N m], in principal axes; zero in the
@@ -60,9 +58,9 @@ requires SpaceDimension<Dim> AngularVector<Dim> torque_free_spin(
             best = w;
             best_error = error.norm();
             // d(exp(half w) m) = -half [exp(half w) m]_x dw to first order in half |w|.
-            Matrix<3> slope = turn.matrix() * principal.asDiagonal();
+            Matrix<3> slope = columns_scaled<3>(turn.matrix(), principal);
             slope -= half * moment_matrix<3>(carried);
-            w -= slope.inverse() * error;
+            w -= solve_by_cramer(slope, error);
         }
         return best;
     }

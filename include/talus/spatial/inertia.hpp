@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/cross.hpp>
 #include <talus/core/types.hpp>
 #include <talus/spatial/rotation.hpp>
 
@@ -24,7 +25,7 @@ AngularMatrix<Dim> tensor_world(const Rotation<Dim>& rotation,
         return AngularMatrix<2>(principal[0]);
     } else {
         const Matrix<3> r = rotation.matrix();
-        return r * principal.asDiagonal() * r.transpose();
+        return columns_scaled<3>(r, principal) * r.transpose();
     }
 }
 

@@ -24,9 +24,9 @@ requires SpaceDimension<Dim> LocalFrame<Dim> local_frame(const Vector<Dim>& norm
         const double sign = std::copysign(1.0, normal[2]);
         const double a = -1.0 / (sign + normal[2]);
         const double b = normal[0] * normal[1] * a;
-        frame.row(0) = normal;
-        frame.row(1) << 1.0 + sign * normal[0] * normal[0] * a, sign * b, -sign * normal[0];
-        frame.row(2) << b, sign + normal[1] * normal[1] * a, -normal[1];
+        frame << normal[0], normal[1], normal[2],                                 //
+            1.0 + sign * normal[0] * normal[0] * a, sign * b, -sign * normal[0],  //
+            b, sign + normal[1] * normal[1] * a, -normal[1];
     }
     return frame;
 }

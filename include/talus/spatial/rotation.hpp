@@ -76,7 +76,9 @@ class Rotation<3> {
         const double s = angle > 1e-4 ? std::sin(0.5 * angle) / angle : 0.5 - angle * angle / 48.0;
         Rotation r;
         r.q_.w() = std::cos(0.5 * angle);
-        r.q_.vec() = s * spin;
+        r.q_.x() = s * spin[0];
+        r.q_.y() = s * spin[1];
+        r.q_.z() = s * spin[2];
         return r;
     }
     /// Rotation with the given matrix (assumed orthonormal, determinant 1).
@@ -85,9 +87,9 @@ class Rotation<3> {
     /// The shortest spin whose `exp` is this rotation [rad].
     AngularVector<3> log() const {
         const double sign = q_.w() < 0.0 ? -1.0 : 1.0;
-        const double s = q_.vec().norm();
+        const double s = axis().norm();
         const double half = std::atan2(s, sign * q_.w());
-        return (s > 0.0 ? 2.0 * half / s : 2.0) * sign * q_.vec();
+        return (s > 0.0 ? 2.0 * half / s : 2.0) * sign * axis();
     }
     const Eigen::Quaterniond& quaternion() const { return q_; }
     Rotation inverse() const {
@@ -97,11 +99,9 @@ class Rotation<3> {
     }
     Matrix<3> matrix() const { return q_.toRotationMatrix(); }
 
-    Vector<3> operator*(const Vector<3>& v) const { return q_._transformVector(v); }
+    Vector<3> operator*(const Vector<3>& v) const { return turned(axis(), v); }
     /// Inverse rotation of a vector, without forming the inverse.
-    Vector<3> transpose_times(const Vector<3>& v) const {
-        return q_.conjugate()._transformVector(v);
-    }
+    Vector<3> transpose_times(const Vector<3>& v) const { return turned(-axis(), v); }
     /// Spin in world axes from spin in body axes, and back.
     AngularVector<3> spin_world(const AngularVector<3>& body) const { return *this * body; }
     AngularVector<3> spin_body(const AngularVector<3>& world) const {
@@ -115,12 +115,21 @@ class Rotation<3> {
     }
     /// Distance to another rotation: a bound of |R v - R' v| over unit vectors v [-].
     double distance(const Rotation& o) const {
-        return 2.0 * std::sqrt(std::min((q_.coeffs() - o.q_.coeffs()).squaredNorm(),
-                                        (q_.coeffs() + o.q_.coeffs()).squaredNorm()));
+        const double w = o.q_.w();
+        return 2.0 *
+               std::sqrt(std::min((axis() - o.axis()).squaredNorm() + (q_.w() - w) * (q_.w() - w),
+                                  (axis() + o.axis()).squaredNorm() + (q_.w() + w) * (q_.w() + w)));
     }
     Rotation normalized() const { return Rotation(q_); }
 
   private:
+    /// The vector part of the quaternion: along the axis, of length sin(angle / 2).
+    Vector<3> axis() const { return {q_.x(), q_.y(), q_.z()}; }
+    Vector<3> turned(const Vector<3>& axis, const Vector<3>& v) const {
+        const Vector<3> twice = 2.0 * axis.cross(v);
+        return v + q_.w() * twice + axis.cross(twice);
+    }
+
     Eigen::Quaterniond q_;
 };
 

@@ -92,11 +92,7 @@ EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
     report.residual = data.report.residual;
     report.speed = detail::largest_point_speed<Dim>(system, data.end);
 
-    std::vector<Vector<Dim>> removed(data.impulse);
-    for (Vector<Dim>& r : removed) r = -r;
-    std::vector<Twist<Dim>> free(data.end);
-    apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, removed, free);
-    report.load_speed = detail::largest_point_speed<Dim>(system, free);
+    report.load_speed = detail::largest_point_speed<Dim>(system, data.free);
 
     if (data.report.status != SolveStatus::converged)
         report.verdict = Verdict::undecided;

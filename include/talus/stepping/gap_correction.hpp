@@ -3,6 +3,7 @@
 
 #include <talus/assembly/apply_impulses.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
+#include <talus/core/input.hpp>
 #include <talus/law/signorini.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/step_data.hpp>
@@ -17,10 +18,9 @@ namespace talus {
 
 /// Settings of the position correction.
 struct GapCorrectionParams {
-    /// Share of each overlap removed per step [-]. 0 switches the correction off (the paper has
-    /// none); 0.2 takes away overlaps within some ten steps and does not disturb the solver's warm
-    /// start.
-    double fraction = 0.0;
+    /// Share of each overlap removed per step [-], in [0, 1]. 0.2 takes away overlaps within some
+    /// ten steps and does not disturb the solver's warm start; 0 corrects nothing, like the paper.
+    double fraction = 0.2;
     /// Sweeps and tolerance of the displacement problem: a rough answer is enough, since what is
     /// left is corrected in the next step.
     GaussSeidelParams solver{.max_sweeps = 50, .tolerance = 1e-2};
@@ -36,13 +36,18 @@ template <int Dim>
 requires SpaceDimension<Dim>
 class GapCorrection {
   public:
+    GapCorrectionParams params;
+
+    /// Throws input_error if the fraction is out of range.
+    void require_valid() const {
+        require_in("fraction of the gap correction", params.fraction, 0.0, 1.0);
+    }
     /// Corrects the configuration at the end of the step described by `data`, whose correction_work
     /// it sets.
     template <class Law, class ShapeType>
-    void apply(System<Dim, Law, ShapeType>& system, const GapCorrectionParams& params,
-               StepData<Dim, Law>& data) {
+    void apply(System<Dim, Law, ShapeType>& system, StepData<Dim, Law>& data) {
         budget_ += dissipated(data);
-        if (!(params.fraction > 0.0) || !pose_problem(params.fraction, data)) return;
+        if (!(params.fraction > 0.0) || !pose_problem(data)) return;
         impulse_.assign(data.contact_count(), Vector<Dim>::Zero());
         solver_.params = params.solver;
         solver_.solve(problem_, std::span<Vector<Dim>>(impulse_));
@@ -68,7 +73,7 @@ class GapCorrection {
     /// Fills the displacement problem; false if nothing overlaps. Gaps are those of the next
     /// midpoint.
     template <class Law>
-    bool pose_problem(double fraction, const StepData<Dim, Law>& data) {
+    bool pose_problem(const StepData<Dim, Law>& data) {
         bool overlap = false;
         const std::size_t n = data.contact_count();
         problem_.free_velocity.assign(n, Vector<Dim>::Zero());
@@ -76,7 +81,7 @@ class GapCorrection {
             const double gap =
                 data.contacts.gap[c] +
                 data.h * relative_velocity<Dim>(data.problem.jacobian, c, data.end)[0];
-            problem_.free_velocity[c][0] = gap < 0.0 ? fraction * gap : gap;
+            problem_.free_velocity[c][0] = gap < 0.0 ? params.fraction * gap : gap;
             overlap = overlap || gap < 0.0;
         }
         if (!overlap) return false;

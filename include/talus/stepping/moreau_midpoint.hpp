@@ -4,8 +4,12 @@
 #include <talus/assembly/apply_impulses.hpp>
 #include <talus/assembly/contact_detection.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
+#include <talus/assembly/contact_velocities.hpp>
 #include <talus/assembly/free_velocity.hpp>
 #include <talus/assembly/impulse_cache.hpp>
+#include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/instantiate.hpp>
+#include <talus/dynamics/drift.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/stepping/gap_anticipating.hpp>
 #include <talus/stepping/step_data.hpp>
@@ -17,6 +21,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace talus {
 
@@ -38,17 +43,6 @@ struct StepParams {
     double skin = 0.2;
 };
 
-/// Moves all free bodies along their present velocities for a time [s]: q + duration u.
-template <int Dim>
-void drift(Bodies<Dim>& bodies, double duration) {
-    for (std::size_t i = 0; i < bodies.count(); ++i) {
-        if (bodies.is_obstacle(i)) continue;
-        bodies.position[i] += duration * bodies.velocity[i];
-        bodies.rotation[i] =
-            (bodies.rotation[i] * Rotation<Dim>::exp(duration * bodies.spin[i])).normalized();
-    }
-}
-
 /// One step of [Moreau] section 2.3, equation (9), stage by stage; owns what the stages share.
 ///
 ///   q_mid  = q_begin + (h/2) u_begin             A, G, W, F, gaps taken at (t_mid, q_mid)
@@ -56,37 +50,29 @@ void drift(Bodies<Dim>& bodies, double duration) {
 ///   u_free = u_begin + h A^-1 F(t_mid, q_mid, u_begin)
 ///   law( mean of U_begin and U_end , r )  for every active contact,  u_end = u_free + A^-1 G^T r
 ///   q_end  = q_mid + (h/2) u_end
-template <int Dim, class Law, class ShapeType, class Broad, class Hooks = NoHooks>
+template <int Dim, ContactLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad,
+          class Hooks = NoHooks>
 class MoreauMidpoint {
   public:
     using SystemType = System<Dim, Law, ShapeType>;
+    using Data = StepData<Dim, Law>;
 
     /// Advances `system` from t_begin by h; `data` receives what happened. Throws input_error, with
     /// the system as it was, if a prescribed motion or an applied force is not finite.
     template <ContactSolver<Dim, Law> Solver>
     void step(SystemType& system, double t_begin, double h, const StepParams& params,
-              Solver& solver, StepData<Dim, Law>& data) {
-        data.t_begin = t_begin;
-        data.h = h;
-        data.correction_work = 0.0;
-        move_to_midpoint(system, data);
-        hooks_.at_midpoint(system, data);
-        detect(system, params, data);
-        assemble_matrices(system, data);
-        hooks_.matrices_known(system, data);
-        evaluate_forces(system, params, data);
-        hooks_.forces_known(system, data);
-        assemble_velocities(system, params, data);
-        recall(data);
-        hooks_.problem_known(system, data);
-        solve(solver, data);
-        hooks_.solved(system, data);
-        apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse,
-                            data.end);
-        hooks_.velocities_known(system, data);
-        finish(system, data);
-        hooks_.finished(system, data);
+              Solver& solver, Data& data) {
+        pose_problem(system, t_begin, h, params, data);
+        data.report = solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
+        complete(system, data);
     }
+
+    /// The first half of a step, up to what a solver is given: the problem, and in `data.impulse`
+    /// what it starts from. Free bodies are left at q_mid.
+    void pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
+                      Data& data);
+    /// The second half, from the impulses that a solver found.
+    void complete(SystemType& system, Data& data);
 
     /// Called between the stages (step_hooks.hpp).
     Hooks& hooks() { return hooks_; }
@@ -98,118 +84,12 @@ class MoreauMidpoint {
     void reset_candidates() { detection_.reset(); }
 
   private:
-    void move_to_midpoint(SystemType& system, StepData<Dim, Law>& data) {
-        Bodies<Dim>& bodies = system.bodies;
-        const std::size_t n = bodies.count();
-        system.place_obstacles(data.t_mid());
-        drift(bodies, 0.5 * data.h);
-        data.begin.resize(n);
-        for (std::size_t i = 0; i < n; ++i) data.begin[i] = bodies.twist(i);
-    }
-
-    void detect(SystemType& system, const StepParams& params, StepData<Dim, Law>& data) {
-        const std::size_t n = system.bodies.count();
-        reach_.assign(n, 0.5 * params.contact_tolerance);
-        if (params.scheme == Scheme::gap_anticipating)
-            for (std::size_t i = 0; i < n; ++i)
-                reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius[i],
-                                                     system.gravity, data.h);
-        detection_.detect(system.bodies, system.shapes, system.bounding_radius,
-                          params.skin * system.mean_bounding_radius(), reach_, data.contacts);
-        if (params.scheme == Scheme::gap_anticipating)
-            data.contacts.keep_if([&](std::size_t c) {
-                return data.contacts.gap[c] <= params.contact_tolerance ||
-                       !bounces<Dim>(law_of(system, data.contacts.key[c]));
-            });
-    }
-
-    void assemble_matrices(SystemType& system, StepData<Dim, Law>& data) {
-        assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
-        assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
-    }
-
-    void assemble_velocities(SystemType& system, const StepParams& params,
-                             StepData<Dim, Law>& data) {
-        const std::size_t n = data.contact_count();
-        data.problem.free_velocity.resize(n);
-        data.problem.laws.clear();
-        for (std::size_t c = 0; c < n; ++c) {
-            const Law& law = law_of(system, data.contacts.key[c]);
-            data.problem.laws.push_back(law);
-            Vector<Dim>& u_free = data.problem.free_velocity[c];
-            u_free = relative_velocity<Dim>(data.problem.jacobian, c, data.end);
-            if constexpr (RestitutionLaw<Law, Dim>)
-                u_free += law.restitution_shift(
-                    relative_velocity<Dim>(data.problem.jacobian, c, data.begin));
-            if (params.scheme == Scheme::gap_anticipating)
-                u_free[0] += anticipated_velocity(data.contacts.gap[c], data.h);
-        }
-    }
-
-    void recall(StepData<Dim, Law>& data) {
-        data.impulse.resize(data.contact_count());
-        data.recalled = cache_.recall(data.contacts, data.problem.jacobian, data.impulse,
-                                      last_h_ > 0.0 ? data.h / last_h_ : 1.0);
-    }
-
-    static const Law& law_of(const SystemType& system, const ContactKey& key) {
-        const auto& material = system.bodies.material;
-        return system.laws.at(material[static_cast<std::size_t>(key.a)],
-                              material[static_cast<std::size_t>(key.b)]);
-    }
-
-    void evaluate_forces(SystemType& system, const StepParams& params, StepData<Dim, Law>& data) {
-        const Bodies<Dim>& bodies = system.bodies;
-        const std::size_t n = bodies.count();
-        if (!system.forces.empty()) {
-            data.applied.assign(n, Wrench<Dim>{});
-            for (const auto& force : system.forces) force(data.t_mid(), bodies, data.applied);
-            require_finite_forces(system, data);
-        } else {
-            data.applied.clear();
-        }
-        data.gyroscopic.clear();
-        data.end.resize(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            const AngularVector<Dim> change =
-                gyroscopic_change<Dim>(bodies, i, data.h, params.gyroscopic);
-            if (data.gyroscopic.empty() && !change.isZero(0.0))
-                data.gyroscopic.assign(n, AngularVector<Dim>::Zero());
-            if (!data.gyroscopic.empty()) data.gyroscopic[i] = change;
-            data.end[i] =
-                free_velocity<Dim>(bodies, i, data.h, system.gravity,
-                                   data.applied.empty() ? Wrench<Dim>{} : data.applied[i], change);
-        }
-    }
-
-    /// Goes back to the beginning of the step and throws if some applied force is not finite.
-    static void require_finite_forces(SystemType& system, const StepData<Dim, Law>& data) {
-        for (std::size_t i = 0; i < data.applied.size(); ++i) {
-            if (data.applied[i].force.allFinite() && data.applied[i].torque.allFinite()) continue;
-            drift(system.bodies, -0.5 * data.h);
-            system.place_obstacles(data.t_begin);
-            const std::string item = "applied force on body " + std::to_string(i);
-            require_finite(item, data.applied[i].force);
-            require_finite(item + ", its torque", data.applied[i].torque);
-        }
-    }
-
-    template <class Solver>
-    void solve(Solver& solver, StepData<Dim, Law>& data) {
-        data.report = solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
-        cache_.store(data.contacts, data.problem.jacobian, data.impulse);
-        last_h_ = data.h;
-    }
-
-    void finish(SystemType& system, StepData<Dim, Law>& data) {
-        Bodies<Dim>& bodies = system.bodies;
-        for (std::size_t i = 0; i < bodies.count(); ++i) {
-            bodies.velocity[i] = data.end[i].linear;
-            bodies.spin[i] = bodies.rotation[i].spin_body(data.end[i].angular);
-        }
-        drift(bodies, 0.5 * data.h);
-        system.place_obstacles(data.t_end());
-    }
+    void move_to_midpoint(SystemType& system, Data& data);
+    void detect(const SystemType& system, const StepParams& params, Data& data);
+    void evaluate_forces(SystemType& system, const StepParams& params, Data& data);
+    void assemble_contacts(const SystemType& system, const StepParams& params, Data& data);
+    static void require_finite_forces(SystemType& system, const Data& data);
+    static void finish(SystemType& system, Data& data);
 
     ContactDetection<Dim, ShapeType, Broad> detection_;
     ImpulseCache<Dim> cache_;
@@ -218,4 +98,131 @@ class MoreauMidpoint {
     [[no_unique_address]] Hooks hooks_;
 };
 
+// The bodies stand apart from the class, so that `extern template` can keep them from being
+// compiled in every file: what is defined within a class is inline, and is made anyway.
+
+#define TALUS_OF_STEP                                                                    \
+    template <int Dim, ContactLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad, \
+              class Hooks>                                                               \
+    void MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks>
+
+TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
+                            Data& data) {
+    data.t_begin = t_begin;
+    data.h = h;
+    data.correction_work = 0.0;
+    move_to_midpoint(system, data);
+    hooks_.at_midpoint(system, data);
+    detect(system, params, data);
+    assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
+    assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
+    hooks_.matrices_known(system, data);
+    evaluate_forces(system, params, data);
+    hooks_.forces_known(system, data);
+    assemble_contacts(system, params, data);
+    data.impulse.resize(data.contact_count());
+    data.recalled = cache_.recall(data.contacts, data.problem.jacobian, data.impulse,
+                                  last_h_ > 0.0 ? data.h / last_h_ : 1.0);
+    hooks_.problem_known(system, data);
+}
+
+TALUS_OF_STEP::complete(SystemType& system, Data& data) {
+    cache_.store(data.contacts, data.problem.jacobian, data.impulse);
+    last_h_ = data.h;
+    hooks_.solved(system, data);
+    data.end = data.free;
+    apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
+    hooks_.velocities_known(system, data);
+    finish(system, data);
+    hooks_.finished(system, data);
+}
+
+TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
+    Bodies<Dim>& bodies = system.bodies;
+    const std::size_t n = bodies.count();
+    system.place_obstacles(data.t_mid());
+    drift(bodies, 0.5 * data.h);
+    data.begin.resize(n);
+    for (std::size_t i = 0; i < n; ++i) data.begin[i] = bodies.twist(i);
+}
+
+TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& data) {
+    const std::size_t n = system.bodies.count();
+    reach_.assign(n, 0.5 * params.contact_tolerance);
+    if (params.scheme == Scheme::gap_anticipating)
+        for (std::size_t i = 0; i < n; ++i)
+            reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius[i],
+                                                 system.gravity, data.h);
+    detection_.detect(system.bodies, system.shapes, system.bounding_radius,
+                      params.skin * system.mean_bounding_radius(), reach_, data.contacts);
+    if (params.scheme == Scheme::gap_anticipating)
+        data.contacts.keep_if([&](std::size_t c) {
+            return data.contacts.gap[c] <= params.contact_tolerance ||
+                   !bounces<Dim>(system.law_of(data.contacts.key[c]));
+        });
+}
+
+TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Data& data) {
+    const Bodies<Dim>& bodies = system.bodies;
+    const std::size_t n = bodies.count();
+    if (!system.forces.empty()) {
+        data.applied.assign(n, Wrench<Dim>{});
+        for (const auto& force : system.forces) force(data.t_mid(), bodies, data.applied);
+        require_finite_forces(system, data);
+    } else {
+        data.applied.clear();
+    }
+    data.gyroscopic.clear();
+    data.free.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const AngularVector<Dim> change =
+            gyroscopic_change<Dim>(bodies, i, data.h, params.gyroscopic);
+        if (data.gyroscopic.empty() && !change.is_zero())
+            data.gyroscopic.assign(n, AngularVector<Dim>::Zero());
+        if (!data.gyroscopic.empty()) data.gyroscopic[i] = change;
+        data.free[i] =
+            free_velocity<Dim>(bodies, i, data.h, system.gravity,
+                               data.applied.empty() ? Wrench<Dim>{} : data.applied[i], change);
+    }
+}
+
+/// Goes back to the beginning of the step and throws if some applied force is not finite.
+TALUS_OF_STEP::require_finite_forces(SystemType& system, const Data& data) {
+    for (std::size_t i = 0; i < data.applied.size(); ++i) {
+        if (data.applied[i].force.allFinite() && data.applied[i].torque.allFinite()) continue;
+        drift(system.bodies, -0.5 * data.h);
+        system.place_obstacles(data.t_begin);
+        const std::string item = "applied force on body " + std::to_string(i);
+        require_finite(item, data.applied[i].force);
+        require_finite(item + ", its torque", data.applied[i].torque);
+    }
+}
+
+TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& params, Data& data) {
+    data.problem.laws.clear();
+    for (const ContactKey& key : data.contacts.key) data.problem.laws.push_back(system.law_of(key));
+    assemble_velocities<Dim, Law>(data.problem.jacobian, data.begin, data.free, data.problem.laws,
+                                  data.problem.free_velocity);
+    if (params.scheme == Scheme::gap_anticipating)
+        for (std::size_t c = 0; c < data.contact_count(); ++c)
+            data.problem.free_velocity[c][0] += anticipated_velocity(data.contacts.gap[c], data.h);
+}
+
+TALUS_OF_STEP::finish(SystemType& system, Data& data) {
+    Bodies<Dim>& bodies = system.bodies;
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+        bodies.velocity[i] = data.end[i].linear;
+        bodies.spin[i] = bodies.rotation[i].spin_body(data.end[i].angular);
+    }
+    drift(bodies, 0.5 * data.h);
+    system.place_obstacles(data.t_end());
+}
+
+#undef TALUS_OF_STEP
+
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::MoreauMidpoint<2, talus::DefaultLaw<2>, talus::AnyShape<2>,
+                                           talus::HierarchicalGrid<2>>)
+TALUS_IN_SPACE(class talus::MoreauMidpoint<3, talus::DefaultLaw<3>, talus::AnyShape<3>,
+                                           talus::HierarchicalGrid<3>>)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/core/observer.hpp>
-#include <talus/solver/sweeps/gauss_seidel.hpp>
-#include <talus/stepping/gap_correction.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
+#include <talus/stepping/simulation_types.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -20,46 +19,42 @@ struct SimulationParams {
     /// falls from height H wants h well below R / sqrt(2 g H).
     double h = 1e-3;
     StepParams step = {};
-    GapCorrectionParams gap_correction = {};
 };
 
-/// A system and its clock. The solver, the broad phase, the law and the shapes are types of the
-/// user's choice; the defaults are those most runs want.
+/// A system and its clock. The defaults are those most runs want; another law, solver, list of
+/// shapes or broad phase is named in a struct derived from SimulationTypes.
 ///
-///     Simulation<3> sim({.mu = 0.4}, {.h = 1e-3});
+///     Simulation<3> sim({Coulomb<3>{.mu = 0.4}}, {.h = 1e-3});
 ///     sim.system().gravity[2] = -9.81;
 ///     sim.system().add_obstacle(HalfSpace<3>{...});
 ///     sim.system().add(Ball<3>{0.005}, 2600.0, pose);
 ///     sim.run(1.0, [](const auto& s) { return s.data().report.residual < 1.0; });
-template <int Dim, class Law = DefaultLaw<Dim>, class ShapeType = AnyShape<Dim>,
-          class Solver = GaussSeidel<Dim, Law>, class Broad = HierarchicalGrid<Dim>,
-          class Hooks = NoHooks>
-requires SpaceDimension<Dim> && ContactLaw<Law, Dim> && ContactSolver<Solver, Dim, Law>
+template <int Dim, class Types = SimulationTypes<Dim>>
+requires SpaceDimension<Dim>
 class Simulation {
   public:
+    using Law = typename Types::Law;
+    using ShapeType = typename Types::Shape;
+    using Solver = SolverOf<Dim, Types>;
+    using Broad = typename Types::BroadPhase;
+    using Hooks = typename Types::Hooks;
+    using Correction = typename Types::GapCorrection;
+    static_assert(ContactLaw<Law, Dim>, "Types::Law must be a ContactLaw");
+    static_assert(ContactSolver<Solver, Dim, Law>,
+                  "Types::Solver must be a ContactSolver for Types::Law");
+    static_assert(BroadPhase<Broad, Dim>, "Types::BroadPhase must be a BroadPhase");
+
     using SystemType = System<Dim, Law, ShapeType>;
     using Data = StepData<Dim, Law>;
 
     /// Throws input_error if a setting is out of range.
-    explicit Simulation(SystemType system, SimulationParams params = {}, Solver solver = Solver())
-        : system_(std::move(system)), params_(params), solver_(std::move(solver)) {
-        require_positive("step size h", params_.h);
-        require_non_negative("contact tolerance", params_.step.contact_tolerance);
-        require_non_negative("skin", params_.step.skin);
-        require_in("fraction of the gap correction", params_.gap_correction.fraction, 0.0, 1.0);
-    }
+    explicit Simulation(SystemType system, SimulationParams params = {}, Solver solver = Solver());
     /// One material.
     explicit Simulation(const Law& law, SimulationParams params = {}, Solver solver = Solver())
         : Simulation(SystemType(law), params, std::move(solver)) {}
 
     /// Advances by one step; returns what it did.
-    const Data& step() {
-        integrator_.step(system_, time_, params_.h, params_.step, solver_, data_);
-        gap_correction_.apply(system_, params_.gap_correction, data_);
-        ++step_count_;
-        time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
-        return data_;
-    }
+    const Data& step();
 
     /// Makes the steps that bring the clock to `duration` [s] from now, to the nearest step.
     /// `on_step(const Simulation&)` is called after each; if it returns bool, false stops the run.
@@ -85,17 +80,43 @@ class Simulation {
     ImpulseCache<Dim>& impulse_cache() { return integrator_.impulse_cache(); }
     /// Called between the stages of a step (step_hooks.hpp).
     Hooks& hooks() { return integrator_.hooks(); }
+    /// The correction of positions, if the types have one: its settings are in `params`.
+    Correction& gap_correction() { return gap_correction_; }
 
   private:
     SystemType system_;
     SimulationParams params_;
     Solver solver_;
     MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks> integrator_;
-    GapCorrection<Dim> gap_correction_;
+    [[no_unique_address]] Correction gap_correction_;
     Data data_;
     double time_start_ = 0.0;
     double time_ = 0.0;
     std::int64_t step_count_ = 0;
 };
 
+template <int Dim, class Types>
+requires SpaceDimension<Dim> Simulation<Dim, Types>::Simulation(SystemType system,
+                                                                SimulationParams params,
+                                                                Solver solver)
+    : system_(std::move(system)), params_(params), solver_(std::move(solver)) {
+    require_positive("step size h", params_.h);
+    require_non_negative("contact tolerance", params_.step.contact_tolerance);
+    require_non_negative("skin", params_.step.skin);
+}
+
+template <int Dim, class Types>
+requires SpaceDimension<Dim>
+auto Simulation<Dim, Types>::step() -> const Data& {
+    gap_correction_.require_valid();
+    integrator_.step(system_, time_, params_.h, params_.step, solver_, data_);
+    gap_correction_.apply(system_, data_);
+    ++step_count_;
+    time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
+    return data_;
+}
+
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::Simulation<2>)
+TALUS_IN_SPACE(class talus::Simulation<3>)

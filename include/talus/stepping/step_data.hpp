@@ -25,7 +25,8 @@ struct StepData {
     std::vector<Wrench<Dim>> applied;            ///< user forces; empty if there are none
     std::vector<AngularVector<Dim>> gyroscopic;  ///< change of body-axis spin; empty if all zero
     std::vector<Twist<Dim>> begin;               ///< u_begin, world axes
-    std::vector<Twist<Dim>> end;                 ///< u_end (u_free until the impulses are known)
+    std::vector<Twist<Dim>> free;                ///< u_free, world axes
+    std::vector<Twist<Dim>> end;                 ///< u_end, world axes
 
     ContactSet<Dim> contacts;          ///< at the midpoint configuration
     ContactProblem<Dim, Law> problem;  ///< what the solver was given

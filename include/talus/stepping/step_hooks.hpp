@@ -14,7 +14,7 @@ struct NoHooks {
     /// `data.contacts`, jacobian and inverse masses filled. Before the forces.
     template <class SystemType, class Data>
     void matrices_known(SystemType&, Data&) {}
-    /// `data.end` holds u_free. Before the contacts' velocities.
+    /// `data.free` filled. Before the contacts' velocities.
     template <class SystemType, class Data>
     void forces_known(SystemType&, Data&) {}
     /// `data.problem` and the warm start in `data.impulse` are as the solver will see them.
@@ -23,7 +23,7 @@ struct NoHooks {
     /// Impulses found. Before they are applied.
     template <class SystemType, class Data>
     void solved(SystemType&, Data&) {}
-    /// `data.end` holds u_end. Before the bodies receive it and drift to q_end.
+    /// `data.end` filled. Before the bodies receive it and drift to q_end.
     template <class SystemType, class Data>
     void velocities_known(SystemType&, Data&) {}
     /// The bodies are at q_end.

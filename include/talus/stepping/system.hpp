@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/dynamics/bodies.hpp>
 #include <talus/dynamics/forces.hpp>
+#include <talus/dynamics/place.hpp>
 #include <talus/dynamics/prescribed_motion.hpp>
 #include <talus/geometry/any_shape.hpp>
 #include <talus/geometry/principal_shape.hpp>
@@ -23,21 +26,6 @@ namespace talus {
 /// asks for another.
 template <int Dim>
 using DefaultLaw = WeightedMean<Dim, Coulomb<Dim>>;
-
-/// Puts body i where its prescribed motion has it at time t [s]. Throws input_error if that is not
-/// finite.
-template <int Dim>
-void place(Bodies<Dim>& bodies, std::size_t i, const PrescribedMotion<Dim>& motion, double t) {
-    const Pose<Dim> pose = motion.pose(t);
-    const Twist<Dim> twist = motion.twist(t);
-    if (!pose.position.allFinite() || !twist.linear.allFinite() || !twist.angular.allFinite())
-        throw input_error("prescribed motion of body " + std::to_string(i) + " at time " +
-                          detail::text_of(t) + " is not finite, but must be");
-    bodies.position[i] = pose.position;
-    bodies.rotation[i] = pose.rotation;
-    bodies.velocity[i] = twist.linear;
-    bodies.spin[i] = pose.rotation.spin_body(twist.angular);
-}
 
 /// What a simulation is of: bodies with their shapes, obstacles with their motions, forces, and the
 /// contact law of each pair of materials.
@@ -94,9 +82,12 @@ struct System {
     }
 
     /// Puts all obstacles where they are at time t [s].
-    void place_obstacles(double t) {
-        for (const Obstacle& obstacle : obstacles)
-            place(bodies, static_cast<std::size_t>(obstacle.body), obstacle.motion, t);
+    void place_obstacles(double t);
+
+    /// The law of a contact: that of the two bodies' materials.
+    const Law& law_of(const ContactKey& key) const {
+        return laws.at(bodies.material[static_cast<std::size_t>(key.a)],
+                       bodies.material[static_cast<std::size_t>(key.b)]);
     }
 
     /// Mean over the free bodies of bounded shape; 0 if there are none [m].
@@ -105,27 +96,46 @@ struct System {
     }
 
   private:
-    void check_material(MaterialIndex material) const {
-        if (material < 0 || material >= laws.material_count())
-            detail::reject("material", material,
-                           "an index below " + std::to_string(laws.material_count()) +
-                               ", the number of materials");
-    }
-    template <class S>
-    BodyIndex attach(BodyIndex body, const S& shape) {
-        const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
-        bounding_radius.push_back(box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()
-                                                : std::numeric_limits<double>::infinity());
-        shapes.emplace_back(shape);
-        if (box.bounded() && !bodies.is_obstacle(static_cast<std::size_t>(body))) {
-            bounded_radius_sum_ += bounding_radius.back();
-            ++bounded_count_;
-        }
-        return body;
-    }
+    void check_material(MaterialIndex material) const;
+    BodyIndex attach(BodyIndex body, ShapeType shape);
 
     double bounded_radius_sum_ = 0.0;
     std::size_t bounded_count_ = 0;
 };
 
+// Defined apart, so that `extern template` can keep them from being compiled in every file.
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::place_obstacles(double t) {
+    for (const Obstacle& obstacle : obstacles)
+        place(bodies, static_cast<std::size_t>(obstacle.body), obstacle.motion, t);
+}
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::check_material(MaterialIndex material) const {
+    if (material < 0 || material >= laws.material_count())
+        detail::reject("material", material,
+                       "an index below " + std::to_string(laws.material_count()) +
+                           ", the number of materials");
+}
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(BodyIndex body,
+                                                                           ShapeType shape) {
+    const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
+    bounding_radius.push_back(box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()
+                                            : std::numeric_limits<double>::infinity());
+    shapes.push_back(std::move(shape));
+    if (box.bounded() && !bodies.is_obstacle(static_cast<std::size_t>(body))) {
+        bounded_radius_sum_ += bounding_radius.back();
+        ++bounded_count_;
+    }
+    return body;
+}
+
 }  // namespace talus
+
+TALUS_IN_PLANE(struct talus::System<2>)
+TALUS_IN_SPACE(struct talus::System<3>)

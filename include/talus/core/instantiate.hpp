@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Core>
+
+/// Names a template instance that the library talus::compiled holds, below the template and outside
+/// of all namespaces: TALUS_IN_PLANE for one of the plane, TALUS_IN_SPACE for one of space. Without
+/// that library both say nothing, and the compiler makes what a file uses. With it (its CMake
+/// target defines TALUS_COMPILED) they keep the compiler from making it again. In the two sources
+/// of the library itself (which define TALUS_COMPILE_PLANE or TALUS_COMPILE_SPACE) they make it.
+#if defined(TALUS_COMPILE_PLANE)
+#define TALUS_IN_PLANE(...) template __VA_ARGS__;
+#define TALUS_IN_SPACE(...)
+#elif defined(TALUS_COMPILE_SPACE)
+#define TALUS_IN_PLANE(...)
+#define TALUS_IN_SPACE(...) template __VA_ARGS__;
+#elif defined(TALUS_COMPILED)
+#define TALUS_IN_PLANE(...) extern template __VA_ARGS__;
+#define TALUS_IN_SPACE(...) extern template __VA_ARGS__;
+#else
+#define TALUS_IN_PLANE(...)
+#define TALUS_IN_SPACE(...)
+#endif
+
+namespace talus::detail {
+
+/// Eigen aligns its arrays for the vector instructions that it may use, so a program compiled for
+/// others than the library has other layouts. The library defines `tag` for its own alignment
+/// alone: the linker then names the one that is missing.
+template <int Bytes>
+struct CompiledWithAlignment {
+    static const int tag;
+};
+#if defined(TALUS_COMPILE_PLANE)
+template <int Bytes>
+const int CompiledWithAlignment<Bytes>::tag = Bytes;
+template struct CompiledWithAlignment<EIGEN_MAX_STATIC_ALIGN_BYTES>;
+#elif defined(TALUS_COMPILED)
+inline const int* const same_alignment_as_compiled =
+    &CompiledWithAlignment<EIGEN_MAX_STATIC_ALIGN_BYTES>::tag;
+#endif
+
+}  // namespace talus::detail
