@@ -2,14 +2,15 @@
 #include "solver_registry.hpp"
 
 #include <talus/solver/automatic.hpp>
-#include <talus/solver/cones/admm.hpp>
-#include <talus/solver/cones/extragradient.hpp>
 #include <talus/solver/cones/inexact_interior_point.hpp>
 #include <talus/solver/cones/interior_point.hpp>
 #include <talus/solver/cones/projected_gradient.hpp>
 #include <talus/solver/cones/proximal_newton.hpp>
 #include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
+
+#include "baselines/admm.hpp"
+#include "baselines/extragradient.hpp"
 #ifdef TALUS_BENCH_SICONOS
 #include "peer_siconos.hpp"
 #endif
@@ -49,8 +50,8 @@ std::vector<RegisteredSolver> own_solvers() {
         engine<talus::ProjectedGradient>("spectral_gradient", {.step = GradientStep::spectral}));
     solvers.push_back(engine<talus::ProjectedGradient>("accelerated_gradient",
                                                        {.step = GradientStep::accelerated}));
-    solvers.push_back(engine<talus::Extragradient>("extragradient"));
-    solvers.push_back(engine<talus::Admm>("admm"));
+    solvers.push_back(engine<Extragradient>("extragradient"));
+    solvers.push_back(engine<Admm>("admm"));
     solvers.push_back(engine<talus::InteriorPoint>("interior_point"));
     solvers.push_back(engine<talus::InexactInteriorPoint>("inexact_interior_point"));
     solvers.push_back(engine<talus::ProximalNewton>("proximal_newton"));

@@ -5,8 +5,6 @@
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/automatic.hpp>
-#include <talus/solver/cones/admm.hpp>
-#include <talus/solver/cones/extragradient.hpp>
 #include <talus/solver/cones/inexact_interior_point.hpp>
 #include <talus/solver/cones/interior_point.hpp>
 #include <talus/solver/cones/projected_gradient.hpp>
@@ -58,8 +56,6 @@ inline constexpr std::array solver_choices{
                       &solve_with<talus::AcceleratedGaussSeidel<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"projected_gradient",
                       &solve_with<talus::ProjectedGradient<Dim, talus::Coulomb<Dim>>>},
-    SolverChoice<Dim>{"extragradient", &solve_with<talus::Extragradient<Dim, talus::Coulomb<Dim>>>},
-    SolverChoice<Dim>{"admm", &solve_with<talus::Admm<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"interior_point",
                       &solve_with<talus::InteriorPoint<Dim, talus::Coulomb<Dim>>>},
     SolverChoice<Dim>{"inexact_interior_point",
