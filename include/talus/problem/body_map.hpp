@@ -268,6 +268,7 @@ class DelassusGlobal {
     void add(std::size_t i, const Vector<Dim>& dr) { w_.add(i, dr); }
 
     const DelassusSparse<Dim>& assembled() const { return w_; }
+    DelassusSparse<Dim>& assembled() { return w_; }
     /// Null where M does not fall apart into bodies.
     const BodyMap<Dim>* bodies() const { return has_bodies_ ? &bodies_ : nullptr; }
 
