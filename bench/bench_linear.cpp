@@ -385,14 +385,11 @@ void register_all(const std::vector<ProblemEntry>& problems, Workshop& workshop)
                       std::pair{"solve", Stage::solve}}) {
                     const std::string title =
                         entry.name + (bodies ? "/bodies/" : "/contacts/") + name + "/" + word;
-                    benchmark::RegisterBenchmark(title.c_str(),
-                                                 [&entry, &workshop, bodies, make = make,
-                                                  stage = stage](benchmark::State& state) {
-                                                     run(state, workshop.get(entry, bodies),
-                                                         *make(), stage);
-                                                 })
-                        ->Unit(benchmark::kMillisecond)
-                        ->MinTime(0.2);
+                    benchmark::RegisterBenchmark(title.c_str(), [&entry, &workshop, bodies,
+                                                                 make = make, stage = stage](
+                                                                    benchmark::State& state) {
+                        run(state, workshop.get(entry, bodies), *make(), stage);
+                    })->Unit(benchmark::kMillisecond);
                 }
 }
 
