@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/solver/report.hpp>
+#include <talus/solver/any_solver.hpp>
 
 #include <array>
 #include <cstddef>
@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench_problem.hpp"
@@ -60,19 +61,17 @@ struct RegisteredSolver {
     }
 };
 
-/// A talus solver: a class `Solver` with `params.tolerance`, some limit of iterations in `params`,
-/// and `solve(problem, r)` or `solve(w, free_velocity, laws, r)`. The limit of iterations is taken
-/// away; LimitedClock sees to the end.
-template <int Dim, class Solver>
-SolveFunction<Dim> solve_with(decltype(Solver::params) params) {
-    if constexpr (requires { params.max_sweeps; })
-        params.max_sweeps = std::numeric_limits<int>::max() - 1;
-    if constexpr (requires { params.max_iterations; })
-        params.max_iterations = std::numeric_limits<int>::max() - 1;
-    return [params](const BenchProblem<Dim>& problem, double tolerance, LimitedClock& clock,
-                    std::span<talus::Vector<Dim>> r) {
-        Solver solver(params);
-        solver.params.tolerance = tolerance;
+/// No limit of iterations: LimitedClock sees to the end.
+inline constexpr int unlimited = std::numeric_limits<int>::max() - 1;
+
+/// A talus solver, which `make(tolerance)` returns.
+template <int Dim>
+using SolverMaker = std::function<talus::AnySolver<Dim, Law<Dim>>(double tolerance)>;
+template <int Dim>
+SolveFunction<Dim> solve_with(SolverMaker<Dim> make) {
+    return [make = std::move(make)](const BenchProblem<Dim>& problem, double tolerance,
+                                    LimitedClock& clock, std::span<talus::Vector<Dim>> r) {
+        auto solver = make(tolerance);
         talus::SolveReport report;
         Outcome outcome;
         if (problem.bodies() != nullptr) {

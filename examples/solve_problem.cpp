@@ -8,6 +8,8 @@
 // Exit code: 0 if all converged, 1 if some did not, 2 on wrong options or files.
 #include <talus/io/problem_file.hpp>
 #include <talus/io/write_file.hpp>
+#include <talus/law/coulomb.hpp>
+#include <talus/solver/solver_registry.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -23,21 +25,23 @@
 #include <vector>
 
 #include "number_option.hpp"
-#include "solver_choice.hpp"
 
 namespace {
+
+template <int Dim>
+using Law = talus::Coulomb<Dim>;
 
 struct Options {
     std::vector<std::string> files;
     std::string solver = "automatic";
-    SolverSettings settings;
+    talus::SolverSettings settings;
     std::string json;  ///< file; empty: none
 };
 
 /// || r - P_K(r - (u + mu |u_t| n)) || / max(|| q ||, || r ||, || u ||) over all contacts; 0 / 0 is
 /// 0.
 template <int Dim>
-double residual_in_file_units(const FrictionProblem<Dim>& p,
+double residual_in_file_units(const talus::AssembledProblem<Dim, Law<Dim>>& p,
                               const std::vector<talus::Vector<Dim>>& r) {
     const auto u = talus::solution_of<Dim>(p, r).relative_velocity;
     double error = 0.0, q2 = 0.0, r2 = 0.0, u2 = 0.0;
@@ -55,8 +59,9 @@ nlohmann::json solve(const std::string& file, const Options& o) {
     const auto content = talus::read_problem<Dim>(file);
     auto problem = talus::assembled(content);
     std::vector<talus::Vector<Dim>> r(problem.contact_count(), talus::Vector<Dim>::Zero());
+    auto solver = talus::make_solver<Dim, Law<Dim>>(o.solver, o.settings);
     const auto start = std::chrono::steady_clock::now();
-    const auto report = solver_named<Dim>(o.solver).solve(problem, r, o.settings);
+    const auto report = solver.solve(problem, r);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     return {{"name", std::filesystem::path(file).stem().string()},
             {"dimension", Dim},
@@ -81,7 +86,8 @@ void print(const nlohmann::json& j) {
 
 /// Solves all that can be; returns the exit code.
 int run(const Options& o) {
-    solver_named<3>(o.solver);
+    // A wrong name or setting is said once, not for every file.
+    talus::make_solver<3, Law<3>>(o.solver, o.settings);
     nlohmann::json all = nlohmann::json::array();
     bool converged = true, refused = false;
     std::printf(
@@ -100,11 +106,19 @@ int run(const Options& o) {
     return refused ? 2 : converged ? 0 : 1;
 }
 
+/// What --help says of solvers.
+std::string known_solvers() {
+    std::string text = "one of:";
+    for (const auto& [name, description] : talus::solver_names<3, Law<3>>())
+        text += "\n" + std::string(name) + ": " + std::string(description);
+    return text;
+}
+
 /// Reads the command line; nothing if it asked for help, which was then printed. Throws
 /// input_error, one sentence, on anything wrong.
 std::optional<Options> read_options(int argc, char** argv) {
     Options o;
-    double iterations = o.settings.iterations;
+    double iterations = o.settings.max_iterations;
     CLI::App app(
         "Solves contact problems with Coulomb friction from files in FCLib's HDF5 format, from "
         "zero\n"
@@ -112,7 +126,7 @@ std::optional<Options> read_options(int argc, char** argv) {
         "solve_problem");
     app.footer("Exit code: 0 if all converged, 1 if some did not, 2 on wrong options or files.\n");
     app.add_option("FILE", o.files, "problem files")->required();
-    app.add_option("--solver", o.solver, "one of " + solver_names());
+    app.add_option("--solver", o.solver, known_solvers());
     add_number(app, "--tolerance", o.settings.tolerance, 0, 1, "on the residual (1e-8)");
     add_number(app, "--iterations", iterations, 0, 1e9, "allowed per problem (10000)");
     app.add_option("--json", o.json, "file for the same figures");
@@ -125,7 +139,7 @@ std::optional<Options> read_options(int argc, char** argv) {
         throw talus::input_error(std::string(error.what()) +
                                  " (solve_problem --help lists the options)");
     }
-    o.settings.iterations = static_cast<int>(iterations);
+    o.settings.max_iterations = static_cast<int>(iterations);
     return o;
 }
 

@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(the_problems_of_other_codes_are_read) {
 
 BOOST_AUTO_TEST_CASE(automatic_solves_the_problems_of_other_codes) {
     for_each_problem([](const std::filesystem::path& path) {
-        // The one problem that nobody has solved to tight tolerance (solver/README.md).
+        // The one problem that nobody has solved to tight tolerance (bench/NOTEBOOK.md).
         const bool open = path.stem() == "SpherePile-1000";
         const double tolerance = open ? 1e-4 : 1e-12;
         const int sweeps = open ? 2000 : talus::AutomaticParams{}.max_sweeps;

@@ -185,6 +185,16 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(laws_without_a_cone_are_left_to_sweeps, D, dimensi
         BOOST_TEST((stage.engine != "interior_point" && stage.engine != "newton_polish"));
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(laws_that_never_have_a_cone_are_solved, D, dimensions) {
+    constexpr int dim = D::value;
+    using Pin = talus::Bilateral<dim>;
+    auto p = stack_of_particles<dim>({1.0, 1.0}, Pin{});
+    p.free_velocity[0] = -talus::Vector<dim>::Unit(0);
+    std::vector<talus::Vector<dim>> r(2, talus::Vector<dim>::Zero());
+    talus::Automatic<dim, Pin> solver({.tolerance = 1e-12});
+    BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::converged));
+}
+
 BOOST_AUTO_TEST_CASE(where_no_engine_arrives_all_take_turns_and_the_best_impulses_are_returned) {
     const auto p = lattice_heap(26);
     std::vector<talus::Vector<2>> r(p.contact_count(), talus::Vector<2>::Zero());

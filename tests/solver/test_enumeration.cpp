@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
 #include <talus/solver/oracle/enumeration.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "common/automatic.hpp"
 #include "common/coulomb_enumeration.hpp"
@@ -278,12 +280,24 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_limit_is_reported, D, dimensions) {
     BOOST_TEST(!oracle.complete());
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(laws_without_a_cone_are_declined, D, dimensions) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_contact_without_a_cone_is_refused_by_name, D, dimensions) {
     constexpr int dim = D::value;
-    const auto p = stack_of_particles<dim>({1.0}, talus::Bilateral<dim>{});
-    talus::Enumeration<dim, talus::Bilateral<dim>> oracle;
-    BOOST_TEST(oracle.enumerate(p).empty());
-    BOOST_TEST(!oracle.complete());
+    using Any = talus::AnyLaw<dim, talus::Coulomb<dim>, talus::Bilateral<dim>>;
+    auto p = stack_of_particles<dim>({1.0, 1.0}, Any{talus::Coulomb<dim>{0.3}});
+    p.free_velocity[0] = -talus::Vector<dim>::Unit(0);
+    p.laws[1].law = talus::Bilateral<dim>{};
+    const auto names_the_contact = [](const talus::input_error& error) {
+        const std::string_view text = error.what();
+        return text.find("contact 1 ") != text.npos && text.find("Automatic") != text.npos;
+    };
+    talus::Enumeration<dim, Any> oracle;
+    std::vector<talus::Vector<dim>> r(2, talus::Vector<dim>::Constant(0.5));
+    const auto before = r;
+    BOOST_CHECK_EXCEPTION(oracle.solve(p, r), talus::input_error, names_the_contact);
+    BOOST_CHECK_EXCEPTION(oracle.enumerate(p), talus::input_error, names_the_contact);
+    BOOST_TEST((r == before));
+    p.laws[1].law = talus::Coulomb<dim>{0.3};
+    BOOST_TEST((oracle.solve(p, r).status == talus::SolveStatus::converged));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/solver/concepts.hpp>
-#include <talus/solver/cones/admm.hpp>
-#include <talus/solver/cones/extragradient.hpp>
 #include <talus/solver/cones/projected_gradient.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -70,23 +68,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(convexified_law_is_the_nearest_point_of_the_cone, 
             BOOST_TEST(((report.status == talus::SolveStatus::converged) == exact));
             BOOST_TEST((r[0] - expected).norm() < 1e-9);
         }
-}
-
-BOOST_AUTO_TEST_CASE_TEMPLATE(extragradient, D, dimensions) {
-    test_first_order<D::value>(
-        []<class Law>(double tolerance) {
-            return talus::Extragradient<D::value, Law>(
-                {.max_iterations = most, .tolerance = tolerance});
-        },
-        {.well_posed = 1e-5});
-}
-
-BOOST_AUTO_TEST_CASE_TEMPLATE(admm, D, dimensions) {
-    test_first_order<D::value>(
-        []<class Law>(double tolerance) {
-            return talus::Admm<D::value, Law>({.max_iterations = most, .tolerance = tolerance});
-        },
-        {.well_posed = 1e-7});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

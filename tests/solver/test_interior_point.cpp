@@ -56,19 +56,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(well_posed_problems_are_solved_in_few_iterations, 
         }
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(laws_without_a_cone_are_declined, D, dimensions) {
-    constexpr int dim = D::value;
-    struct Own : Law<dim> {
-        int friction_cone = 0;  // hides the law's own
-    };
-    talus::ContactProblem<dim, Own> p = stack_of_particles<dim>({1.0}, Own{{0.5}, 0});
-    p.free_velocity[0][0] = -1.0;
-    std::vector<talus::Vector<dim>> r(1, talus::Vector<dim>::Zero());
-    talus::InteriorPoint<dim, Own> solver;
-    BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::stalled));
-    BOOST_TEST(r[0].norm() == 0.0);
-}
-
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_margin_that_is_not_positive_is_refused, D, dimensions) {
     constexpr int dim = D::value;
     RandomBlocks random(96);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <talus/law/bilateral.hpp>
 #include <talus/solver/cones/proximal_newton.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
@@ -125,17 +124,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(input_out_of_range_is_refused, D, dimensions) {
     BOOST_CHECK_THROW(Solver<dim>({.max_iterations = -1}).solve(p, r), talus::input_error);
     r.pop_back();
     BOOST_CHECK_THROW(Solver<dim>().solve(p, r), talus::input_error);
-}
-
-BOOST_AUTO_TEST_CASE_TEMPLATE(laws_without_a_cone_are_declined, D, dimensions) {
-    constexpr int dim = D::value;
-    using Pin = talus::Bilateral<dim>;
-    auto p = stack_of_particles<dim>({1.0, 1.0}, Pin{});
-    p.free_velocity[0][0] = -1.0;
-    std::vector<talus::Vector<dim>> r(2, talus::Vector<dim>::Zero());
-    talus::ProximalNewton<dim, Pin> solver;
-    BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::stalled));
-    BOOST_TEST(r[0].norm() + r[1].norm() == 0.0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -22,11 +22,6 @@ namespace {
 using namespace validation;
 using nlohmann::ordered_json;
 
-const std::map<std::string, SolverKind> solver_kinds = {{"gauss_seidel", SolverKind::gauss_seidel},
-                                                        {"automatic", SolverKind::automatic}};
-const std::map<SolverKind, std::string> solver_names = {{SolverKind::gauss_seidel, "gauss_seidel"},
-                                                        {SolverKind::automatic, "automatic"}};
-
 struct Options {
     int gate = 2;
     bool full = false;
@@ -36,7 +31,7 @@ struct Options {
     std::uint64_t seed = 1;
     bool list = false;
     bool mutants = false;
-    SolverKind solver = SolverKind::gauss_seidel;
+    std::string solver = usual_solver;
     double patience = 1.0;
     std::string output = "report.json";
     std::string commit, command;
@@ -218,7 +213,7 @@ void write(const Options& options, const std::vector<Result>& results, ordered_j
                                 {"filter", options.filter},
                                 {"dim", options.dim},
                                 {"jobs", options.jobs},
-                                {"solver", solver_names.at(options.solver)},
+                                {"solver", options.solver},
                                 {"seed", options.seed}}},
                               {"summary",
                                {{"cases", cases.size()},
@@ -316,7 +311,7 @@ int main(int argc, char** argv) {
     app.add_option("--seed", options.seed, "of all random realisations")->capture_default_str();
     app.add_flag("--list", options.list, "list the cases and stop");
     app.add_option("--solver", options.solver, "that the cases run with")
-        ->transform(CLI::CheckedTransformer(solver_kinds));
+        ->check(CLI::IsMember(solver_names()));
     app.add_flag("--mutants", options.mutants,
                  "put each fault into the method and see who notices");
     app.add_option("--patience", options.patience,

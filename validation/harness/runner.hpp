@@ -45,7 +45,7 @@ struct RunOptions {
     int jobs = 1;
     bool full = false;
     std::uint64_t seed = 1;
-    SolverKind solver = SolverKind::gauss_seidel;
+    std::string solver = usual_solver;
 };
 
 /// One thing to run.

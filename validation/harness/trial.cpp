@@ -179,7 +179,7 @@ World<Dim> Trial<Dim>::world(const WorldParams<Dim>& params, talus::MaterialTabl
             if (draws()) draw(w);
         };
     WorldParams<Dim> with_solver = params;
-    with_solver.kind = solver_kind();
+    with_solver.solver_name = solver_name();
     return World<Dim>(with_solver, std::move(laws), fault(), std::move(listener));
 }
 

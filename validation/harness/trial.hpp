@@ -112,7 +112,7 @@ struct TrialParams {
     bool full = false;             ///< the longer ranges of parameters
     bool stop_at_failure = false;  ///< throw Caught
     std::uint64_t seed = 1;
-    SolverKind solver = SolverKind::gauss_seidel;
+    std::string solver = usual_solver;
 };
 
 /// What a case records while it runs, without regard to the dimension.
@@ -122,7 +122,7 @@ class TrialRecord {
 
     bool full() const { return params_.full; }
     Fault fault() const { return params_.fault; }
-    SolverKind solver_kind() const { return params_.solver; }
+    const std::string& solver_name() const { return params_.solver; }
     bool faulty(Fault fault) const { return params_.fault == fault; }
     /// A generator for the k-th realisation; the same for the same seed of the run.
     std::mt19937_64 rng(std::uint64_t k = 0) const;
@@ -253,7 +253,7 @@ class Trial : public TrialRecord {
     template <class AnyProblem>
     talus::SolveReport solve(const AnyProblem& problem, std::vector<V<Dim>>& r,
                              const talus::GaussSeidelParams& params) {
-        const auto report = validation::solve<Dim>(problem, r, params, fault(), solver_kind());
+        const auto report = validation::solve<Dim>(problem, r, params, fault(), solver_name());
         solved(report.residual, params.tolerance);
         return report;
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "world.hpp"
 
-#include <talus/solver/automatic.hpp>
-
 #include "faulty.hpp"
+#include "solvers.hpp"
 
 namespace validation {
 
@@ -23,8 +22,10 @@ class Engine {
                                          const talus::ImpulseCache<Dim>& start) = 0;
 };
 
-talus::AutomaticParams automatic(const talus::GaussSeidelParams& params) {
-    return {.tolerance = params.tolerance, .max_sweeps = params.max_sweeps};
+template <int Dim>
+talus::AnySolver<Dim, Law<Dim>> named_solver(const std::string& name,
+                                             const talus::GaussSeidelParams& params) {
+    return talus::make_solver<Dim, Law<Dim>>(name, {params.tolerance, params.max_sweeps});
 }
 
 namespace {
@@ -67,10 +68,11 @@ std::unique_ptr<Engine<Dim>> make_engine(const WorldParams<Dim>& params,
     talus::SimulationParams settings;
     settings.h = params.h;
     settings.step = params.step;
-    if (fault == Fault::none && params.kind == SolverKind::automatic) {
-        using Solver = talus::Automatic<Dim, Law<Dim>>;
+    if (fault == Fault::none && params.solver_name != usual_solver) {
+        using Solver = talus::AnySolver<Dim, Law<Dim>>;
         return std::make_unique<EngineOf<Dim, Solver, talus::NoHooks>>(
-            std::move(system), settings, Solver(automatic(params.solver)), talus::NoHooks{});
+            std::move(system), settings, named_solver<Dim>(params.solver_name, params.solver),
+            talus::NoHooks{});
     }
     if (fault == Fault::none) {
         using Solver = talus::GaussSeidel<Dim, Law<Dim>>;
@@ -177,10 +179,10 @@ Equilibrium<Dim> World<Dim>::equilibrium(const talus::ImpulseCache<Dim>& start, 
 
 template <int Dim>
 talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
-                         const talus::GaussSeidelParams& params, Fault fault, SolverKind kind) {
-    if (fault == Fault::none && kind == SolverKind::automatic)
-        return talus::Automatic<Dim, Law<Dim>>(detail::automatic(params))
-            .solve(problem, std::span<V<Dim>>(r));
+                         const talus::GaussSeidelParams& params, Fault fault,
+                         const std::string& solver_name) {
+    if (fault == Fault::none && solver_name != usual_solver)
+        return detail::named_solver<Dim>(solver_name, params).solve(problem, std::span<V<Dim>>(r));
     if (fault == Fault::none)
         return talus::GaussSeidel<Dim, Law<Dim>>(params).solve(problem, std::span<V<Dim>>(r));
     return FaultySolver<Dim>(params, fault).solve(problem, std::span<V<Dim>>(r));
@@ -188,11 +190,12 @@ talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
 
 template <int Dim>
 talus::SolveReport solve(const DenseProblem<Dim>& problem, std::vector<V<Dim>>& r,
-                         const talus::GaussSeidelParams& params, Fault fault, SolverKind kind) {
+                         const talus::GaussSeidelParams& params, Fault fault,
+                         const std::string& solver_name) {
     if (fault != Fault::none) return FaultySolver<Dim>(params, fault).solve(problem, std::span(r));
-    if (kind == SolverKind::automatic) {
+    if (solver_name != usual_solver) {
         talus::DelassusSparse<Dim> w(problem.contact_count(), problem.blocks());
-        return talus::Automatic<Dim, Law<Dim>>(detail::automatic(params))
+        return detail::named_solver<Dim>(solver_name, params)
             .solve(w, std::span<const V<Dim>>(problem.free_velocity),
                    std::span<const Law<Dim>>(problem.laws), std::span<V<Dim>>(r));
     }
@@ -208,12 +211,14 @@ V<Dim> solve_contact(const Law<Dim>& law, const talus::LocalProblem<Dim>& proble
     return FaultyLaw<Dim>{law, fault}.solve(problem, V<Dim>::Zero());
 }
 
-#define TALUS_VALIDATION_INSTANTIATE(Dim)                                                       \
-    template class World<Dim>;                                                                  \
-    template talus::SolveReport solve<Dim>(const Problem<Dim>&, std::vector<V<Dim>>&,           \
-                                           const talus::GaussSeidelParams&, Fault, SolverKind); \
-    template talus::SolveReport solve<Dim>(const DenseProblem<Dim>&, std::vector<V<Dim>>&,      \
-                                           const talus::GaussSeidelParams&, Fault, SolverKind); \
+#define TALUS_VALIDATION_INSTANTIATE(Dim)                                                  \
+    template class World<Dim>;                                                             \
+    template talus::SolveReport solve<Dim>(const Problem<Dim>&, std::vector<V<Dim>>&,      \
+                                           const talus::GaussSeidelParams&, Fault,         \
+                                           const std::string&);                            \
+    template talus::SolveReport solve<Dim>(const DenseProblem<Dim>&, std::vector<V<Dim>>&, \
+                                           const talus::GaussSeidelParams&, Fault,         \
+                                           const std::string&);                            \
     template V<Dim> solve_contact<Dim>(const Law<Dim>&, const talus::LocalProblem<Dim>&, Fault);
 TALUS_VALIDATION_INSTANTIATE(2)
 TALUS_VALIDATION_INSTANTIATE(3)

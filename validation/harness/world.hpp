@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "dense_problem.hpp"
 #include "faults.hpp"
@@ -26,8 +27,12 @@ using Equilibrium = talus::EquilibriumReport<Dim, Law<Dim>>;
 template <int Dim>
 using Problem = talus::ContactProblem<Dim, Law<Dim>>;
 
-/// Which solver the cases run with; faults are always put into Gauss-Seidel.
-enum class SolverKind { gauss_seidel, automatic };
+/// The solver that cases run with unless told otherwise, with all its parameters; others, by their
+/// names in the library's registry, take its tolerance and its limit of iterations. Faults are
+/// always put into this one.
+inline constexpr const char* usual_solver = "gauss_seidel";
+/// All names.
+std::vector<std::string> solver_names();
 
 /// How a world steps. The law given is that of every contact; several go into `laws`.
 template <int Dim>
@@ -37,8 +42,7 @@ struct WorldParams {
     V<Dim> gravity = -g * up<Dim>();  ///< [m/s^2]
     talus::StepParams step = {.contact_tolerance = touching};
     talus::GaussSeidelParams solver = {.max_sweeps = 2000, .tolerance = 1e-14};
-    /// Set by the trial. Of `solver`, `automatic` takes the tolerance and the sweeps allowed.
-    SolverKind kind = SolverKind::gauss_seidel;
+    std::string solver_name = usual_solver;  ///< set by the trial
     bool prepares = false;  ///< makes a state for another world: its residuals are not judged
 };
 
@@ -116,11 +120,11 @@ class World {
 template <int Dim>
 talus::SolveReport solve(const Problem<Dim>& problem, std::vector<V<Dim>>& r,
                          const talus::GaussSeidelParams& params, Fault fault,
-                         SolverKind kind = SolverKind::gauss_seidel);
+                         const std::string& solver_name = usual_solver);
 template <int Dim>
 talus::SolveReport solve(const DenseProblem<Dim>& problem, std::vector<V<Dim>>& r,
                          const talus::GaussSeidelParams& params, Fault fault,
-                         SolverKind kind = SolverKind::gauss_seidel);
+                         const std::string& solver_name = usual_solver);
 
 /// Solves one contact: the law's own local solution (or that of a faulty law).
 template <int Dim>

@@ -23,6 +23,7 @@ class Bicgstab {
     int solve(const Matrix& a, const Vec& b, Vec& y, double tolerance, int limit) {
         y.setZero(b.size());
         residual_ = shadow_ = p_ = b;
+        // The shadow residual is the first one, the usual choice: rho begins as its square.
         double rho = residual_.squaredNorm();
         for (int k = 0; k < limit; ++k) {
             if (!(residual_.norm() > tolerance)) return k;
@@ -30,12 +31,15 @@ class Bicgstab {
             a.precondition(preconditioned_);
             a.multiply(preconditioned_, ap_);
             const double alpha = rho / shadow_.dot(ap_);
+            // Breakdowns show as a division by zero. The caller begins anew from y, with its
+            // residual as the new shadow, which is the usual cure.
             if (!std::isfinite(alpha)) return k + 1;
             y += alpha * preconditioned_;
             residual_ -= alpha * ap_;
             preconditioned_ = residual_;
             a.precondition(preconditioned_);
             a.multiply(preconditioned_, as_);
+            // The half step was biconjugate; this one makes |residual - omega A s| least.
             const double omega = as_.dot(residual_) / as_.squaredNorm();
             if (!std::isfinite(omega)) return k + 1;
             y += omega * preconditioned_;
@@ -50,7 +54,7 @@ class Bicgstab {
     }
 
   private:
-    Vec residual_, shadow_, p_, preconditioned_, ap_, as_;
+    Vec residual_, shadow_, p_, preconditioned_, ap_, as_;  ///< of b; A p and A s are kept apart
 };
 
 }  // namespace talus

@@ -71,6 +71,7 @@ class BlockIlu {
 
 template <int N>
 void BlockIlu<N>::analyze(int nodes, std::span<const std::pair<int, int>> edges) {
+    // Buckets by row, then each row sorted: linear in the edges but for the short sorts.
     const auto n = static_cast<std::size_t>(nodes);
     std::vector<std::size_t> count(n + 1, 0);
     for (const auto& edge : edges) ++count[static_cast<std::size_t>(edge.first) + 1];
@@ -96,6 +97,8 @@ void BlockIlu<N>::analyze(int nodes, std::span<const std::pair<int, int>> edges)
 
 template <int N>
 bool BlockIlu<N>::factorize() {
+    // Row by row (IKJ): row i has the rows k < i of its pattern subtracted. What would fall on a
+    // block that the matrix has not is dropped: that is the 0 of ILU(0).
     factor_ = value_;
     const auto place = [&](std::size_t e) -> std::ptrdiff_t& {
         return place_[static_cast<std::size_t>(column_[e])];
@@ -112,6 +115,8 @@ bool BlockIlu<N>::factorize() {
                     factor_[static_cast<std::size_t>(to)].noalias() -= left * factor_[f];
         }
         for (std::size_t e = begin_[i]; e < begin_[i + 1]; ++e) place(e) = -1;
+        // Inverted once, as each solve would do otherwise; N is 6 at most. Rows are not exchanged
+        // beyond the block: matrices are near to positive definite.
         Block& pivot = factor_[diagonal_[i]];
         pivot = Block(pivot).partialPivLu().inverse();
         if (!pivot.allFinite()) return false;
@@ -128,6 +133,7 @@ void BlockIlu<N>::precondition(Vec& x) const {
             sum.noalias() -= factor_[k] * at(x, column_[k]);
         to = sum;
     }
+    // U, whose diagonal blocks are stored as inverses; L above has unit ones.
     for (std::size_t i = diagonal_.size(); i-- > 0;) {
         auto to = x.template segment<N>(static_cast<Eigen::Index>(N * i));
         Segment sum = to;

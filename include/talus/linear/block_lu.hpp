@@ -80,12 +80,15 @@ class BlockLu {
 /// LU with row exchanges of the upper square of `a` (as many rows as columns count), in place;
 /// recursive, so that nearly all work is in matrix products.
 inline bool BlockLu::eliminate(Eigen::Ref<Dense> a, int* exchange) {
+    // a = (a11 a12; a21 a22): the left half is factorised with all rows below it, its exchanges
+    // carried over to the right half, and what is left of that factorised in turn.
     const Eigen::Index n = a.cols();
     constexpr Eigen::Index small = 8;
     if (n <= small) {
         for (Eigen::Index k = 0; k < n; ++k) {
             Eigen::Index best = 0;
             const double pivot = a.col(k).tail(a.rows() - k).cwiseAbs().maxCoeff(&best);
+            // Not a test for a small pivot: the refinement of ConeSystem::solve sees to those.
             if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
             best += k;
             exchange[k] = static_cast<int>(best);
@@ -114,6 +117,7 @@ inline bool BlockLu::eliminate(Eigen::Ref<Dense> a, int* exchange) {
 
 inline bool BlockLu::factorize() {
     TALUS_CHECK(values_.size() == plan_.value_count(), "set_zero comes first");
+    // Nothing is allocated after the first time: the plan knows all sizes.
     factor_.resize(plan_.factor_size());
     exchange_.resize(plan_.pivot_rows());
     work_.resize(plan_.largest_front());
@@ -124,6 +128,7 @@ inline bool BlockLu::factorize() {
     for (std::size_t index = 0; index < plan_.fronts().size(); ++index) {
         const Front& f = plan_.fronts()[index];
         const int rows = f.pivots + f.rest;
+        // The front: rows of its pivots, then of the positions that they change.
         BlockMap a(work_.data(), rows, rows);
         a.setZero();
         for (const int k : plan_.slots_of(index)) {
@@ -140,6 +145,7 @@ inline bool BlockLu::factorize() {
             local[node(k)] = row;
             row += plan_.width(k);
         }
+        // The last child is on top of the stack.
         for (std::size_t c = f.children.size(); c-- > 0;) {
             const Front& child = plan_.fronts()[node(f.children[c])];
             top -= node(child.rest) * node(child.rest);
@@ -154,6 +160,9 @@ inline bool BlockLu::factorize() {
                 from += child.rest;
             }
         }
+        // Pivots are looked for in the pivot block alone: rows of other fronts are not at hand, and
+        // delayed pivots would change the plan. So a singular pivot block fails, and a nearly
+        // singular one costs digits.
         auto pivot = a.topLeftCorner(f.pivots, f.pivots);
         int* exchange = exchange_.data() + f.row;
         if (!eliminate(pivot, exchange)) return false;
@@ -168,6 +177,7 @@ inline bool BlockLu::factorize() {
         pivot.triangularView<Eigen::UnitLower>().solveInPlace(upper);
         lower = a.bottomLeftCorner(f.rest, f.pivots);
         pivot.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(lower);
+        // The Schur complement waits for the parent.
         BlockMap s(stack_.data() + top, f.rest, f.rest);
         s = a.bottomRightCorner(f.rest, f.rest);
         subtract_product(s, lower, upper);
@@ -178,6 +188,7 @@ inline bool BlockLu::factorize() {
 
 inline void BlockLu::solve(Eigen::Ref<Eigen::VectorXd> x) const {
     TALUS_CHECK(x.size() == size(), "one number per row");
+    // In the order of elimination, and room for the rest of a front.
     gathered_.resize(node(size()) + work_.size());
     Eigen::Map<Eigen::VectorXd> y(gathered_.data(), size());
     for (int k = 0; k < plan_.node_count(); ++k)
@@ -203,6 +214,7 @@ inline void BlockLu::solve(Eigen::Ref<Eigen::VectorXd> x) const {
         down.noalias() = lower * top;
         each(f, [&](int r, int to, int w) { y.segment(to, w) -= down.segment(r, w); });
     }
+    // Back: parents come first.
     for (std::size_t index = plan_.fronts().size(); index-- > 0;) {
         const Front& f = plan_.fronts()[index];
         const double* data = factor_.data() + f.factor;

@@ -31,6 +31,8 @@ struct NestedDissectionParams {
 inline std::vector<int> least_degree_order(const NodeGraph& graph, int count) {
     const auto at = [](int i) { return static_cast<std::size_t>(i); };
     const int n = graph.node_count();
+    // Rows of bits: a clique is formed by or, a degree counted by popcount. Leaves have some
+    // hundred nodes and their neighbours: a few words a row.
     const std::size_t words = (at(n) + 63) / 64;
     std::vector<std::uint64_t> adjacency(words * at(n), 0);  // rows of bits
     const auto row = [&](int i) { return adjacency.data() + words * at(i); };
@@ -87,6 +89,7 @@ inline std::vector<int> nested_dissection(std::span<const int> row_begin,
     }
     whole.edge_weight.assign(whole.neighbour.size(), 1);
 
+    // A stack of parts in place of recursion. Each has its place in the order from the start.
     struct Part {
         std::vector<int> nodes;
         int begin;  ///< in the order
@@ -101,6 +104,7 @@ inline std::vector<int> nested_dissection(std::span<const int> row_begin,
         const int size = static_cast<int>(part.nodes.size());
         const auto out = order.begin() + part.begin;
         if (size <= params.leaf) {
+            // The neighbours outside, which come later, count for the degrees.
             std::vector<int> nodes = part.nodes;
             for (const int i : part.nodes) place[at(i)] = 0;
             for (const int i : part.nodes)
@@ -118,6 +122,8 @@ inline std::vector<int> nested_dissection(std::span<const int> row_begin,
         for (std::size_t k = 0; k < side.size(); ++k) nodes[at(side[k])].push_back(part.nodes[k]);
         const int first = static_cast<int>(nodes[0].size());
         const int second = static_cast<int>(nodes[1].size());
+        // A separator that leaves nearly everything on one side, as in a dense part, only costs
+        // time.
         if (std::max(first, second) > size - size / 32 - 1) {
             // No progress.
             std::copy(part.nodes.begin(), part.nodes.end(), out);

@@ -47,6 +47,7 @@ inline NodeGraph subgraph(const NodeGraph& whole, std::span<const int> nodes,
     NodeGraph part;
     part.row_begin.reserve(nodes.size() + 1);
     part.node_weight.reserve(nodes.size());
+    // Edges to nodes elsewhere are left out.
     for (std::size_t k = 0; k < nodes.size(); ++k)
         place[static_cast<std::size_t>(nodes[k])] = static_cast<int>(k);
     for (const int i : nodes) {
@@ -86,6 +87,7 @@ struct CoarseGraph {
 inline CoarseGraph coarsened(const NodeGraph& fine, std::int64_t heaviest, std::uint64_t seed) {
     const int n = fine.node_count();
     const auto at = [](int i) { return static_cast<std::size_t>(i); };
+    // `alone[h]`: a node without a mate whose heaviest neighbour is h.
     std::vector<int> mate(at(n), -1), alone(at(n), -1);
     const auto join = [&](int i, int j) {
         mate[at(i)] = j;
@@ -103,6 +105,8 @@ inline CoarseGraph coarsened(const NodeGraph& fine, std::int64_t heaviest, std::
     for (const int i : visits) {
         if (mate[at(i)] >= 0) continue;
         const auto adjacent = fine.neighbours(i), weight = fine.edge_weights(i);
+        // The free neighbour of the heaviest edge, so that what is hidden in coarse nodes is what a
+        // separator would not cut.
         int best = -1, heavy = 0, hub = -1, hub_weight = 0;
         for (std::size_t e = 0; e < adjacent.size(); ++e) {
             const int j = adjacent[e];
@@ -120,6 +124,8 @@ inline CoarseGraph coarsened(const NodeGraph& fine, std::int64_t heaviest, std::
             join(i, best);
             continue;
         }
+        // Leaves of a star: their hub takes one of them only, and without this the graph would
+        // hardly shrink.
         int& waiting = hub >= 0 ? alone[at(hub)] : lonely;
         if (waiting >= 0 && mate[at(waiting)] < 0 &&
             fine.weight(i) + fine.weight(waiting) <= heaviest) {
@@ -143,6 +149,8 @@ inline CoarseGraph coarsened(const NodeGraph& fine, std::int64_t heaviest, std::
     coarse.node_weight.reserve(first.size());
     coarse.neighbour.reserve(fine.neighbour.size());
     coarse.edge_weight.reserve(fine.neighbour.size());
+    // Edges between the same coarse nodes add up; `entry` finds the one there is, and is never
+    // reset, as entries of earlier rows are before `begin`.
     std::vector<int> entry(first.size(), -1);
     for (std::size_t k = 0; k < first.size(); ++k) {
         const int begin = static_cast<int>(coarse.neighbour.size());

@@ -20,7 +20,7 @@ namespace talus {
 
 /// W = B^T B with B = C^T H, M^-1 = C C^T: each contact's block of B, body by body. In these
 /// coordinates every body has unit mass, and one that cannot move has no rows. What factorising
-/// solvers and ADMM work on: the matrices of body space, M + H D^-1 H^T, become 1 + B D^-1 B^T.
+/// solvers work on: the matrices of body space, M + H D^-1 H^T, become 1 + B D^-1 B^T.
 template <int Dim>
 class BodyMap {
   public:
@@ -268,6 +268,7 @@ class DelassusGlobal {
     void add(std::size_t i, const Vector<Dim>& dr) { w_.add(i, dr); }
 
     const DelassusSparse<Dim>& assembled() const { return w_; }
+    DelassusSparse<Dim>& assembled() { return w_; }
     /// Null where M does not fall apart into bodies.
     const BodyMap<Dim>* bodies() const { return has_bodies_ ? &bodies_ : nullptr; }
 

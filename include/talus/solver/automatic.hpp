@@ -3,16 +3,10 @@
 
 #include <talus/core/input.hpp>
 #include <talus/law/cone_of.hpp>
-#include <talus/solver/cones/interior_point.hpp>
-#include <talus/solver/cones/newton_polish.hpp>
-#include <talus/solver/cones/overlap_certificate.hpp>
-#include <talus/solver/cones/projected_gradient.hpp>
-#include <talus/solver/cones/proximal_newton.hpp>
+#include <talus/solver/cone_team.hpp>
 #include <talus/solver/impulse_memory.hpp>
 #include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
-
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +14,7 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 namespace talus {
@@ -78,30 +72,19 @@ class Automatic {
     const SolveReport& report() const { return report_; }  ///< of the last solve
 
   private:
-    using System = ConeSystem<Dim>;
-    /// The problem of a solve and its impulses; source() gives what a ConeSystem takes of W.
-    template <class W, class Source>
-    struct Task {
-        W& w;
-        std::span<const Vector<Dim>> free_velocity;
-        std::span<const Law> laws;
-        std::span<Vector<Dim>> r;
-        double visits;  ///< of contacts in a sweep
-        Source source;
-    };
+    template <class W>
+    using Task = AutomaticTask<Dim, Law, W>;
 
-    template <class W, class Source>
-    const SolveReport& run(W& w, std::span<const Vector<Dim>> free_velocity,
-                           std::span<const Law> laws, std::span<Vector<Dim>> r, double visits,
-                           Source source) {
+    template <class W>
+    const SolveReport& run(Task<W> task) {
         require_non_negative("tolerance", params.tolerance);
         require_non_negative("max_sweeps", params.max_sweeps);
         require_non_negative("max_factorizations", params.max_factorizations);
         require_non_negative("max_factor_bytes", params.max_factor_bytes);
         report_ = {};
-        Task<W, Source> task{w, free_velocity, laws, r, visits, source};
         let_engines_work(task);
-        if (report_.status != SolveStatus::not_finite) memory_.return_to_best(r, report_.residual);
+        if (report_.status != SolveStatus::not_finite)
+            memory_.return_to_best(task.r, report_.residual);
         // An engine that gained nothing leaves samples of what it tried at the end.
         if (report_.history.back().residual != report_.residual)
             report_.history.push_back({report_.iterations, report_.residual});
@@ -111,21 +94,25 @@ class Automatic {
     template <class T>
     void let_engines_work(T& task) {
         sweeps_left_ = params.max_sweeps;
-        factorizations_left_ = params.max_factorizations;
         passes_ = 0;
         memory_.clear();
         constexpr double untried = 1e9;
+        // Anderson first: the faster one on small problems.
         speed_ = {2.0 * untried, untried};
-        polished_at_ = untried;
+        // Enough for most warm-started steps, and cheap beside anything that follows.
         constexpr int first_sweeps = 6, first_passes = 15;
         if (sweep(task, first_sweeps) || accelerate(task, first_passes)) return;
         while (ends_soon())
             if (accelerate(task, 2 * last_passes_)) return;
-        if (!take_system(task)) {
-            while (!accelerate(task, 2 * last_passes_)) {
-            }
-            return;
+        if constexpr (ConeLaw<Law, Dim>)
+            if (take_system(task)) return take_turns(task);
+        while (!accelerate(task, 2 * last_passes_)) {
         }
+    }
+
+    /// Sweeps beside the engines that treat all contacts at once.
+    template <class T>
+    void take_turns(T& task) {
         // Double sweeps that cost as much as an interior-point solve, about.
         constexpr double usual_factorizations = 15.0, most = 4000.0;
         double worth = usual_factorizations * passes_per_factorization_;
@@ -141,22 +128,20 @@ class Automatic {
     /// A turn of the engines. False if the solve is over.
     template <class T>
     bool play(T& task, int round, double worth) {
+        // Paths from elsewhere may go through where the first one turned back.
         constexpr std::array margins{0.1, 1.0, 0.01};
         const bool interior = round < static_cast<int>(margins.size());
-        if (factorizations_left_ > 0) {
-            start_cone_engines(task.r);
-            polish_where_new(8);
-            if (interior) {
-                interior_.params.margin = margins[static_cast<std::size_t>(round)];
-                factorize("interior_point", interior_, 60);
-            } else {
-                factorize("proximal_newton", proximal_,
-                          std::max(60, static_cast<int>(worth / passes_per_factorization_)));
-            }
-            polish(20);
+        if (team_.may_factorize()) {
+            team_.start(task.r, report_.residual);
+            team_.polish_where_new(8, report_);
+            if (interior)
+                team_.follow_path(margins[static_cast<std::size_t>(round)], 60, report_);
+            else
+                team_.approach(std::max(60, static_cast<int>(worth / passes_per_factorization_)),
+                               report_);
+            team_.polish(20, report_);
             if (take_over(task)) return false;
-            if (proximal_.report().status == SolveStatus::no_solution ||
-                (interior && certificate_.by_sweeps(task.w, task.free_velocity, system_))) {
+            if (team_.proves_overlap(task, interior)) {
                 report_.status = SolveStatus::no_solution;
                 return false;
             }
@@ -167,13 +152,6 @@ class Automatic {
                             !descend(task, GradientStep::accelerated, turn));
     }
 
-    void note(std::string_view engine, const SolveReport& part, double residual) {
-        const int before = report_.iterations;
-        for (const ResidualSample& s : part.history)
-            report_.history.push_back({before + s.iteration, s.residual});
-        report_.iterations += part.iterations;
-        report_.stages.push_back({engine, part.iterations, residual});
-    }
     /// Before an engine that may leave worse impulses than it was given.
     void keep(std::span<const Vector<Dim>> r) {
         memory_.keep(r, report_.iterations == 0 ? ImpulseMemory<Dim>::unknown : report_.residual);
@@ -191,7 +169,7 @@ class Automatic {
     bool sweep_with(std::string_view name, Engine& engine, T& task, int sweeps) {
         keep(task.r);
         const SolveReport& part = engine.solve(task.w, task.free_velocity, task.laws, task.r);
-        note(name, part, part.residual);
+        report_.add_stage(name, part, part.residual);
         report_.status = part.status;
         report_.residual = part.residual;
         sweeps_left_ -= sweeps * part.iterations;
@@ -199,6 +177,7 @@ class Automatic {
     }
     template <class T>
     bool accelerate(T& task, int passes) {
+        // Between two looks at who is the faster one.
         constexpr int longest = 4000;
         last_passes_ = std::min({passes, longest, sweeps_left_ / 2});
         if (last_passes_ == 0) return true;
@@ -240,51 +219,18 @@ class Automatic {
     template <class T>
     bool take_system(T& task) {
         if (params.max_factorizations == 0) return false;
-        auto cones = cones_of<Dim>(task.laws);
-        if (!cones) return false;
-        measure_.prepare(task.w);
-        system_.assign(task.source(), task.free_velocity, std::move(*cones), measure_);
+        team_.begin(params.tolerance, params.max_factorizations);
+        if (!team_.take(task, measure_, params.max_factor_bytes)) return false;
         constexpr double cost_of_pass = 2.6;  // visits of each contact
-        passes_per_factorization_ = system_.factorization_cost() / (cost_of_pass * task.visits);
-        if (system_.factorization_bytes() > params.max_factor_bytes) factorizations_left_ = 0;
+        passes_per_factorization_ = team_.factorization_cost() / (cost_of_pass * task.visits);
         return true;
-    }
-    void start_cone_engines(std::span<const Vector<Dim>> r) {
-        system_.to_scaled(r, scaled_);
-        scaled_residual_ = report_.residual;
-    }
-    template <class Engine>
-    void improve(std::string_view name, Engine& engine, int at_most) {
-        engine.params.tolerance = params.tolerance;
-        engine.params.max_iterations = at_most;
-        scaled_residual_ = engine.improve(system_, scaled_, scaled_residual_);
-        note(name, engine.report(), scaled_residual_);
-    }
-    template <class Engine>
-    void factorize(std::string_view name, Engine& engine, int at_most) {
-        at_most = std::min(at_most, factorizations_left_);
-        if (at_most == 0 || scaled_residual_ <= params.tolerance) return;
-        improve(name, engine, at_most);
-        factorizations_left_ -= engine.report().iterations;
-    }
-    void polish(int at_most) {
-        polished_at_ = scaled_residual_;
-        factorize("newton_polish", polish_, at_most);
-    }
-    /// Near a solution, and where the last polish has not been already.
-    void polish_where_new(int at_most) {
-        constexpr double settled = 1e-2, clear = 0.03;
-        if (scaled_residual_ < std::min(settled, clear * polished_at_)) polish(at_most);
     }
     template <class T>
     bool descend(T& task, GradientStep step, int products) {
         products = std::min(products, sweeps_left_);
         if (products == 0) return true;
-        start_cone_engines(task.r);
-        gradient_.params.step = step;
-        improve(step == GradientStep::spectral ? "spectral_gradient" : "accelerated_gradient",
-                gradient_, products);
-        sweeps_left_ -= gradient_.report().iterations;
+        team_.start(task.r, report_.residual);
+        sweeps_left_ -= team_.descend(step, products, report_);
         return take_over(task);
     }
     /// Takes the impulses of these engines if they are better by the one measure. True if the solve
@@ -292,7 +238,7 @@ class Automatic {
     template <class T>
     bool take_over(T& task) {
         keep(task.r);
-        system_.to_impulses(scaled_, task.r);
+        team_.to_impulses(task.r);
         velocity_.resize(task.r.size());
         task.w.multiply(task.r, velocity_);
         const double residual =
@@ -332,35 +278,26 @@ class Automatic {
     }
     template <class T>
     bool cannot_separate(T& task) {
-        auto cones = cones_of<Dim>(task.laws);
-        if (!cones) return false;
-        for (FrictionCone<Dim>& cone : *cones) cone.mu = 0.0;
-        system_.assign(task.source(), task.free_velocity, std::move(*cones), measure_);
-        return certificate_.by_sweeps(task.w, task.free_velocity, system_) ||
-               certificate_.by_newton(polish_, system_);
+        if constexpr (ConeLaw<Law, Dim>)
+            return team_.cannot_separate(task, measure_);
+        else
+            return false;
     }
 
     GaussSeidel<Dim, Law> gauss_seidel_;
     AcceleratedGaussSeidel<Dim, Law> accelerated_;
-    InteriorPoint<Dim, Law> interior_;
-    NewtonPolish<Dim, Law> polish_;
-    ProximalNewton<Dim, Law> proximal_;
-    ProjectedGradient<Dim, Law> gradient_;
+    ConeTeam<Dim, Law> team_;
     DelassusProduct<Dim> product_;
     DelassusProduct<Dim, double> scalar_product_;
-    System system_;
     ResidualMeasure<Dim> measure_;
     ImpulseMemory<Dim> memory_;
     std::vector<Vector<Dim>> velocity_;
-    OverlapCertificate<Dim> certificate_;
-    Eigen::VectorXd scaled_;
     SolveReport report_;
-    int sweeps_left_ = 0, factorizations_left_ = 0;
+    int sweeps_left_ = 0;
     int last_passes_ = 0, passes_ = 0;
     std::array<double, 2> speed_{};  ///< digits (natural) per pass: anderson, nesterov
     std::size_t last_used_ = 0;      ///< index into speed_
     double passes_per_factorization_ = 0.0;
-    double scaled_residual_ = 0.0, polished_at_ = 0.0;
 };
 
 // Not inline, so that `extern template class` spares a user all of it.
@@ -368,33 +305,31 @@ class Automatic {
 template <int Dim, ContactLaw<Dim> Law>
 const SolveReport& Automatic<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
                                               std::span<Vector<Dim>> r) {
-    const auto source = [&] { return BodyMap<Dim>(problem.jacobian, problem.inverse_mass); };
-    const double visits = static_cast<double>(problem.contact_count());
-    if (has_scalar_inertia(problem.inverse_mass)) {
-        scalar_product_.assign(problem.jacobian, problem.inverse_mass);
-        return run(scalar_product_, problem.free_velocity, problem.laws, r, visits, source);
-    }
-    product_.assign(problem.jacobian, problem.inverse_mass);
-    return run(product_, problem.free_velocity, problem.laws, r, visits, source);
+    const auto solve_with = [&](auto& w) -> const SolveReport& {
+        w.assign(problem.jacobian, problem.inverse_mass);
+        return run(Task<std::remove_reference_t<decltype(w)>>{
+            w, problem.free_velocity, problem.laws, r, static_cast<double>(problem.contact_count()),
+            nullptr, [&problem] { return BodyMap<Dim>(problem.jacobian, problem.inverse_mass); }});
+    };
+    if (has_scalar_inertia(problem.inverse_mass)) return solve_with(scalar_product_);
+    return solve_with(product_);
 }
 
 template <int Dim, ContactLaw<Dim> Law>
 const SolveReport& Automatic<Dim, Law>::solve(DelassusSparse<Dim>& w,
                                               std::span<const Vector<Dim>> free_velocity,
                                               std::span<const Law> laws, std::span<Vector<Dim>> r) {
-    return run(w, free_velocity, laws, r, sweep_visits(w),
-               [&]() -> const DelassusSparse<Dim>& { return w; });
+    return run(Task<DelassusSparse<Dim>>{w, free_velocity, laws, r, sweep_visits(w), &w});
 }
 
 template <int Dim, ContactLaw<Dim> Law>
 const SolveReport& Automatic<Dim, Law>::solve(DelassusGlobal<Dim>& w,
                                               std::span<const Vector<Dim>> free_velocity,
                                               std::span<const Law> laws, std::span<Vector<Dim>> r) {
-    const double visits = sweep_visits(w.assembled());
-    if (w.bodies() == nullptr)
-        return run(w, free_velocity, laws, r, visits,
-                   [&]() -> const DelassusSparse<Dim>& { return w.assembled(); });
-    return run(w, free_velocity, laws, r, visits, [&] { return *w.bodies(); });
+    DelassusSparse<Dim>& blocks = w.assembled();
+    if (w.bodies() == nullptr) return solve(blocks, free_velocity, laws, r);
+    return run(Task<DelassusSparse<Dim>>{blocks, free_velocity, laws, r, sweep_visits(blocks),
+                                         nullptr, [&w] { return *w.bodies(); }});
 }
 
 }  // namespace talus

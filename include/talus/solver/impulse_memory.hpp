@@ -18,7 +18,9 @@ class ImpulseMemory {
     /// The residual of impulses that were not measured; they are never the best.
     static constexpr double unknown = std::numeric_limits<double>::infinity();
 
+    /// Before a solve.
     void clear() { best_residual_ = unknown; }
+    /// Before an engine works on r, whose residual is that of the last measure.
     void keep(std::span<const Vector<Dim>> r, double residual) {
         kept_.assign(r.begin(), r.end());
         kept_residual_ = residual;
@@ -26,6 +28,7 @@ class ImpulseMemory {
         best_ = kept_;
         best_residual_ = residual;
     }
+    /// What the last engine was given.
     void return_to_kept(std::span<Vector<Dim>> r) const {
         std::copy(kept_.begin(), kept_.end(), r.begin());
     }

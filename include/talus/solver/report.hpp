@@ -39,6 +39,14 @@ struct SolveReport {
     double residual = 0.0;                ///< relative natural-map residual of the exact law [-]
     std::vector<ResidualSample> history;  ///< residuals evaluated on the way, in order
     std::vector<SolveStage> stages;       ///< who did what, where several engines took part
+
+    /// Adds what an engine did that ended at `end`: its iterations, history and a stage.
+    void add_stage(std::string_view engine, const SolveReport& part, double end) {
+        for (const ResidualSample& s : part.history)
+            history.push_back({iterations + s.iteration, s.residual});
+        iterations += part.iterations;
+        stages.push_back({engine, part.iterations, end});
+    }
 };
 
 /// The word for a status, as its enumerator is written.

@@ -52,12 +52,15 @@ requires SpaceDimension<Dim> CentralPair<Dim> central_pair(const Vector<Dim>& x,
     using Tangent = Eigen::Matrix<double, Dim - 1, 1>;
     CentralPair<Dim> p;
     p.d.setZero();
+    // u_n r_n = eps with r_n - u_n = x_0: the positive root of r (r - x_0) = eps, without
+    // cancellation on either side.
     const double root = std::sqrt(x[0] * x[0] + 4.0 * eps);
     p.r[0] = x[0] >= 0.0 ? 0.5 * (x[0] + root) : 2.0 * eps / (root - x[0]);
     p.u[0] = eps / p.r[0];
     p.d(0, 0) = p.u[0] / p.r[0];
     const Tangent x_t = x.template tail<Dim - 1>();
     const double length = x_t.norm(), radius = mu * p.r[0];
+    // No friction: u_t is what it is, and no r_t answers to it.
     if (radius == 0.0) {
         constexpr double rigid = 1e30;
         p.r.template tail<Dim - 1>().setZero();
@@ -67,6 +70,7 @@ requires SpaceDimension<Dim> CentralPair<Dim> central_pair(const Vector<Dim>& x,
     }
     const double depth = detail::depth_in_disc(length, radius, eps);
     const double reach = radius - depth;  // |r_t|
+    // mu^2 r_n^2 - |r_t|^2, from the depth: the difference of squares has no digits near the edge.
     const double room = depth * (radius + reach);
     const double lambda = eps / room;  // u_t = -lambda r_t
     const Tangent r_t = length > 0.0 ? Tangent(x_t * (reach / length)) : Tangent::Zero();
@@ -79,6 +83,8 @@ requires SpaceDimension<Dim> CentralPair<Dim> central_pair(const Vector<Dim>& x,
         p.d.diagonal().setConstant(stiff);
         return p;
     }
+    // -du_t / dr_t = lambda 1 + (dlambda/dr_t) r_t^T, lambda = eps / room: a wall along r_t that
+    // rises as r_t nears the edge. The coupling to r_n, by the radius, is its lower-left part.
     auto block = p.d.template bottomRightCorner<Dim - 1, Dim - 1>();
     const double wall =
         2.0 * lambda / room * std::min(1.0, stiff * room / (2.0 * lambda * reach * reach + 1e-300));

@@ -132,13 +132,13 @@ class ConeSystem {
     static void fold(const Four& sum, Eigen::Map<Vector<3>> u) { u = sum.head<3>(); }
     // Body space.
     BodyMap<Dim> bodies_;
-    mutable Vec v_;
+    mutable Vec v_;  ///< velocities of bodies, of the product in hand
 
-    BlockLu lu_;
+    BlockLu lu_;  ///< of W + D, or of 1 + B D^-1 B^T
     std::vector<std::pair<int, int>> edges_, last_edges_;
     std::vector<int> sizes_, last_sizes_;
-    std::vector<int> slots_;
-    std::vector<Small> d_, d_inverse_;
+    std::vector<int> slots_;            ///< of lu_, in the order in which `factorize` adds to them
+    std::vector<Small> d_, d_inverse_;  ///< of the matrix factorised
     Vec left_, correction_, error_, body_right_;
 };
 
@@ -173,11 +173,13 @@ void ConeSystem<Dim>::assign(const DelassusSparse<Dim>& w,
         const auto blocks = w.blocks(i);
         for (std::size_t k = 0; k < columns.size(); ++k) {
             column_.push_back(columns[k]);
+            // S W S, with S the square roots of the effective masses.
             const Small block = scale_[i] * scale_[columns[k]] * blocks[k];
             value_.insert(value_.end(), block.data(), block.data() + block.size());
         }
         row_begin_.push_back(column_.size());
     }
+    // Products read four numbers at a time, one beyond the last block in space.
     value_.push_back(0.0);
 }
 
@@ -218,6 +220,7 @@ double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
         sum += (rc - cones_[c].project(rc - corrected)).squaredNorm();
     }
     const double scale = std::max(r.norm(), q_.norm());
+    // 0 / 0 is solved; a problem at rest without impulses has no scale to be wrong by.
     return sum == 0.0 ? 0.0 : scale == 0.0 ? 1.0 : std::sqrt(sum) / scale;
 }
 
@@ -237,6 +240,7 @@ bool ConeSystem<Dim>::factorize(std::span<const Matrix<Dim>> d) {
     }
     for (int k = 0; k < static_cast<int>(bodies_.body_sizes().size()); ++k)
         lu_.block(lu_.slot(k, k)).diagonal().setOnes();
+    // 1 + sum over contacts of B_c D_c^-1 B_c^T. D is regular: its symmetric part is positive.
     d_inverse_.resize(contact_count());
     std::size_t slot = 0;
     for (std::size_t c = 0; c < contact_count(); ++c) {
@@ -271,6 +275,7 @@ void ConeSystem<Dim>::analyze() {
                 if (column_[k] != i) edges_.emplace_back(index(i), index(column_[k]));
         sizes_.assign(contact_count(), Dim);
     }
+    // The order costs as much as some factorisations, and patterns change seldom.
     if (lu_.size() == 0 || edges_ != last_edges_ || sizes_ != last_sizes_) {
         lu_.analyze(sizes_, edges_);
         last_edges_ = edges_;
@@ -323,6 +328,7 @@ void ConeSystem<Dim>::solve(const Vec& b, Vec& x, int refinements) {
             error.template segment<Dim>(first(c)).noalias() +=
                 d_[c] * x.template segment<Dim>(first(c));
         error = b - error;
+        // Stops where an error did not halve: what is left is rounding in the error itself.
         const double size = error.norm();
         if (!(size < 0.5 * last) || size <= 1e-15 * b.norm()) return;
         last = size;

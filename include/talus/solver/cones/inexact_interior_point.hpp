@@ -38,7 +38,7 @@ class KrylovDirections {
 /// directions by KrylovConeSolver, in about as many steps. Cheaper than factors in masonry of 1,000
 /// contacts and more, not in houses of cards; sweeps are cheaper again from 100,000 on. Stops where
 /// inner iterations do not arrive, with the best impulses met.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 using InexactInteriorPoint = BasicInteriorPoint<Dim, Law, KrylovDirections<Dim>>;
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 
 #include <talus/core/types.hpp>
 #include <talus/solver/cones/cone_engine.hpp>
+#include <talus/solver/cones/nesterov_todd.hpp>
 
 #include <Eigen/Core>
 
@@ -68,7 +69,7 @@ class FactoredDirections {
 ///
 /// `InteriorPoint` is this with factors, `InexactInteriorPoint` (inexact_interior_point.hpp)
 /// without.
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 class BasicInteriorPoint : public ConeEngine<Dim, Law, BasicInteriorPoint<Dim, Law, Directions>> {
   public:
     explicit BasicInteriorPoint(InteriorPointParams params = {}) : params(params) {}
@@ -81,44 +82,13 @@ class BasicInteriorPoint : public ConeEngine<Dim, Law, BasicInteriorPoint<Dim, L
     friend Base;
     using Vec = Eigen::VectorXd;
     using Point = Vector<Dim>;
-    using Tangent = Eigen::Matrix<double, Dim - 1, 1>;
+    using Cone = SecondOrderCone<Dim>;
 
-    /// Nesterov and Todd's scaling of a pair of points inside the second-order cone.
-    struct Scaling {
-        Point w;  ///< of unit hyperbolic norm
-        double eta;
-        Point lambda;  ///< the scaled point, of both
-
-        Point times(const Point& x) const {
-            const double d = w.template tail<Dim - 1>().dot(x.template tail<Dim - 1>());
-            Point y;
-            y[0] = eta * (w[0] * x[0] + d);
-            y.template tail<Dim - 1>() =
-                eta * (x.template tail<Dim - 1>() +
-                       (x[0] + d / (1.0 + w[0])) * w.template tail<Dim - 1>());
-            return y;
-        }
-        Point divided(const Point& x) const {
-            const double d = w.template tail<Dim - 1>().dot(x.template tail<Dim - 1>());
-            Point y;
-            y[0] = (w[0] * x[0] - d) / eta;
-            y.template tail<Dim - 1>() = (x.template tail<Dim - 1>() +
-                                          (d / (1.0 + w[0]) - x[0]) * w.template tail<Dim - 1>()) /
-                                         eta;
-            return y;
-        }
-        Matrix<Dim> square() const {
-            Matrix<Dim> m = 2.0 * w * w.transpose();
-            m(0, 0) -= 1.0;
-            for (int d = 1; d < Dim; ++d) m(d, d) += 1.0;
-            return eta * eta * m;
-        }
-    };
     struct Contact {
         double mu;
-        double u_n;  ///< slack of the normal velocity
-        Point s;     ///< (sigma, slack of u_t)
-        Scaling scaling;
+        double u_n;  ///< slack of the normal velocity [sqrt(J)], > 0: equal to it on arrival only
+        Point s;     ///< (sigma, slack of u_t) [sqrt(J)], inside the cone
+        NesterovTodd<Dim> scaling;
         // Of the direction in hand.
         double du_n, normal_correction;
         Point ds, correction, right;
@@ -126,53 +96,7 @@ class BasicInteriorPoint : public ConeEngine<Dim, Law, BasicInteriorPoint<Dim, L
 
     void iterate(Vec& r);
 
-    static double hyperbolic(const Point& x) {
-        const double t = x.template tail<Dim - 1>().norm();
-        return (x[0] - t) * (x[0] + t);
-    }
-    static Point product(const Point& a, const Point& b) {
-        Point y;
-        y[0] = a.dot(b);
-        y.template tail<Dim - 1>() =
-            a[0] * b.template tail<Dim - 1>() + b[0] * a.template tail<Dim - 1>();
-        return y;
-    }
-    /// y with product(l, y) = x.
-    static Point quotient(const Point& l, const Point& x) {
-        Point y;
-        y[0] = (l[0] * x[0] - l.template tail<Dim - 1>().dot(x.template tail<Dim - 1>())) /
-               hyperbolic(l);
-        y.template tail<Dim - 1>() =
-            (x.template tail<Dim - 1>() - y[0] * l.template tail<Dim - 1>()) / l[0];
-        return y;
-    }
-    static Scaling scaling_of(const Point& s, const Point& z) {
-        const double hs = hyperbolic(s), hz = hyperbolic(z);
-        const Point a = s / std::sqrt(hs), b = z / std::sqrt(hz);
-        Scaling k;
-        const double gamma = std::sqrt(0.5 * (1.0 + a.dot(b)));
-        k.w = a;
-        k.w[0] += b[0];
-        k.w.template tail<Dim - 1>() -= b.template tail<Dim - 1>();
-        k.w /= 2.0 * gamma;
-        k.w[0] = std::sqrt(1.0 + k.w.template tail<Dim - 1>().squaredNorm());
-        k.eta = std::pow(hs / hz, 0.25);
-        k.lambda = k.times(z);
-        return k;
-    }
-    /// Largest step that keeps x + step d in the cone.
-    static double longest_step(const Point& x, const Point& d) {
-        constexpr double far = std::numeric_limits<double>::infinity();
-        const double a = hyperbolic(d), c = hyperbolic(x);
-        const double b = x[0] * d[0] - x.template tail<Dim - 1>().dot(d.template tail<Dim - 1>());
-        double step = d[0] < 0.0 ? -x[0] / d[0] : far;
-        const double discriminant = b * b - a * c;
-        if (discriminant < 0.0) return step;
-        const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-        for (const double root : {q / a, c / q})
-            if (root > 0.0) step = std::min(step, root);
-        return step;
-    }
+    /// z = (mu r_n, r_t), in the second-order cone.
     Point disc(const Vec& r, std::size_t c) const {
         Point z = r.template segment<Dim>(Base::System::first(c));
         z[0] *= contacts_[c].mu;
@@ -196,7 +120,7 @@ class BasicInteriorPoint : public ConeEngine<Dim, Law, BasicInteriorPoint<Dim, L
 };
 
 /// Moves r into the cones, and velocities with it.
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 void BasicInteriorPoint<Dim, Law, Directions>::start(Vec& r) {
     const auto& system = this->system_;
     const double scale =
@@ -220,12 +144,13 @@ void BasicInteriorPoint<Dim, Law, Directions>::start(Vec& r) {
         k.s = u_.template segment<Dim>(system.first(c));
         k.u_n = std::max(k.s[0], margin);
         k.s[0] = k.s.template tail<Dim - 1>().norm() + margin;
+        // Without friction there is no disc, and no pair for it.
         if (k.mu == 0.0) k.s.setZero();
     }
 }
 
 /// Scales all contacts, fills D; returns the mean complementarity.
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 double BasicInteriorPoint<Dim, Law, Directions>::scale_contacts(const Vec& r) {
     constexpr double rigid = 1e30;  // no tangential impulse
     double gap = 0.0;
@@ -239,12 +164,14 @@ double BasicInteriorPoint<Dim, Law, Directions>::scale_contacts(const Vec& r) {
             const Point z = disc(r, c);
             gap += k.s.dot(z);
             ++pairs;
-            k.scaling = scaling_of(k.s, z);
+            k.scaling = NesterovTodd<Dim>(k.s, z);
             d_[c] = k.scaling.square();
             d_[c].template leftCols<1>() *= k.mu;
         } else {
             d_[c] = rigid * Matrix<Dim>::Identity();
         }
+        // Sigma is eliminated with its row: u_n sees r_n alone. What is left of its column is the
+        // coupling of r_n to u_t, by the radius mu r_n.
         d_[c].template topRows<1>().setZero();
         d_[c](0, 0) = k.u_n / r_n;
     }
@@ -253,7 +180,7 @@ double BasicInteriorPoint<Dim, Law, Directions>::scale_contacts(const Vec& r) {
 
 /// In u, for directions that need not be exact [DemboEisenstatSteihaug1982]: a tenth of what the
 /// path asks of u where contacts press.
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 double BasicInteriorPoint<Dim, Law, Directions>::allowed_error(const Vec& r) const {
     // On the path u_n = gap / r_n. Less than the tolerance asks for is of no use.
     constexpr double share = 0.1;
@@ -265,7 +192,7 @@ double BasicInteriorPoint<Dim, Law, Directions>::allowed_error(const Vec& r) con
 
 /// Newton's direction to the point of complementarity `target` of the path, with the corrections
 /// stored.
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 bool BasicInteriorPoint<Dim, Law, Directions>::find_direction(const Vec& r, double target) {
     right_.resize(r.size());
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -276,9 +203,9 @@ bool BasicInteriorPoint<Dim, Law, Directions>::find_direction(const Vec& r, doub
         auto tangential = right_.template segment<Dim - 1>(i + 1);
         tangential.setZero();
         if (k.mu == 0.0) continue;
-        Point x = -product(k.scaling.lambda, k.scaling.lambda) - k.correction;
+        Point x = -Cone::product(k.scaling.lambda, k.scaling.lambda) - k.correction;
         x[0] += target;
-        const Point h = k.scaling.times(quotient(k.scaling.lambda, x));
+        const Point h = k.scaling.times(Cone::quotient(k.scaling.lambda, x));
         k.ds = h;
         tangential = h.template tail<Dim - 1>() -
                      (u_.template segment<Dim - 1>(i + 1) - k.s.template tail<Dim - 1>());
@@ -298,7 +225,7 @@ bool BasicInteriorPoint<Dim, Law, Directions>::find_direction(const Vec& r, doub
     return dr_.allFinite();
 }
 
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 double BasicInteriorPoint<Dim, Law, Directions>::longest_step(const Vec& r) const {
     double step = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -307,14 +234,14 @@ double BasicInteriorPoint<Dim, Law, Directions>::longest_step(const Vec& r) cons
         if (k.du_n < 0.0) step = std::min(step, -k.u_n / k.du_n);
         if (dr_[i] < 0.0) step = std::min(step, -r[i] / dr_[i]);
         if (k.mu > 0.0)
-            step =
-                std::min({step, longest_step(disc(r, c), disc(dr_, c)), longest_step(k.s, k.ds)});
+            step = std::min({step, Cone::longest_step(disc(r, c), disc(dr_, c)),
+                             Cone::longest_step(k.s, k.ds)});
     }
     return step;
 }
 
 /// Mean complementarity after a step.
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 double BasicInteriorPoint<Dim, Law, Directions>::gap_after(const Vec& r, double step) const {
     double gap = 0.0;
     std::size_t pairs = 0;
@@ -331,17 +258,17 @@ double BasicInteriorPoint<Dim, Law, Directions>::gap_after(const Vec& r, double 
 }
 
 /// Mehrotra's second-order terms of the direction in hand.
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 void BasicInteriorPoint<Dim, Law, Directions>::correct() {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
         Contact& k = contacts_[c];
         k.normal_correction = k.du_n * dr_[Base::System::first(c)];
         if (k.mu > 0.0)
-            k.correction = product(k.scaling.divided(k.ds), k.scaling.times(disc(dr_, c)));
+            k.correction = Cone::product(k.scaling.divided(k.ds), k.scaling.times(disc(dr_, c)));
     }
 }
 
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 void BasicInteriorPoint<Dim, Law, Directions>::drop_corrections() {
     for (Contact& k : contacts_) {
         k.normal_correction = 0.0;
@@ -349,12 +276,12 @@ void BasicInteriorPoint<Dim, Law, Directions>::drop_corrections() {
     }
 }
 
-template <int Dim, ContactLaw<Dim> Law, class Directions>
+template <int Dim, ConeLaw<Dim> Law, class Directions>
 void BasicInteriorPoint<Dim, Law, Directions>::iterate(Vec& best) {
     require_positive("margin", params.margin);
     require_positive("max_inner_iterations", params.max_inner_iterations);
     directions_.begin(this->system_);
-    Vec r = best;
+    Vec r = best;  // inside the cones always; `best` is the one of least residual
     start(r);
     double gap_before = std::numeric_limits<double>::infinity();
     for (int k = 1; k <= params.max_iterations; ++k) {
@@ -373,7 +300,9 @@ void BasicInteriorPoint<Dim, Law, Directions>::iterate(Vec& best) {
             correct();
         }
         if (!find_direction(r, centring * gap)) break;
+        // 0.995 of the way to the boundary, where the barrier is infinite.
         double step = std::min(1.0, 0.995 * longest_step(r));
+        // The correction is for a full step: where that is out of reach it points astray.
         if (step < edge) {
             drop_corrections();
             if (!find_direction(r, 0.8 * gap)) break;
@@ -387,6 +316,7 @@ void BasicInteriorPoint<Dim, Law, Directions>::iterate(Vec& best) {
         this->system_.multiply(r, u_);
         u_ += this->system_.free_velocity();
         if (this->offer(k, r, u_, best)) return;
+        // A path that turned back: complementarity does not fall any more.
         constexpr int patience = 12;
         if (k % patience != 0) continue;
         if (gap > Directions::hope * gap_before) break;
@@ -394,7 +324,7 @@ void BasicInteriorPoint<Dim, Law, Directions>::iterate(Vec& best) {
     }
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 using InteriorPoint = BasicInteriorPoint<Dim, Law, FactoredDirections<Dim>>;
 
 }  // namespace talus

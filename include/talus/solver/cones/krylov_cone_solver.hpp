@@ -103,6 +103,7 @@ void KrylovConeSolver<Dim>::cut_up(const BodyMap<Dim>& map) {
     for (std::size_t c = 0; c < map.contact_count(); ++c) {
         for (const auto& e : map.entries(c)) {
             const auto block = map.block(e);
+            // A body of more rows than a rigid one, as in a global problem, becomes several nodes.
             int node = begin[index(e.body)];
             for (Eigen::Index row = 0; row < block.rows(); row += dof, ++node) {
                 const auto rows = std::min<Eigen::Index>(dof, block.rows() - row);
@@ -184,6 +185,8 @@ bool KrylovConeSolver<Dim>::factorize(const ConeSystem<Dim>& system) {
     }
     body_matrix_.set_zero();
     for (int k = 0; k < nodes_; ++k) body_matrix_.block(body_matrix_.slot(k, k)).setIdentity();
+    // D enters by its inverse: contacts that are rigid in the limit (D -> 0) have the largest
+    // blocks, and rounding of the product B D^-1 B^T then hides all others.
     d_inverse_.resize(d_.size());
     tempered_.clear();
     for (std::size_t c = 0; c < d_.size(); ++c) {
@@ -197,6 +200,7 @@ bool KrylovConeSolver<Dim>::factorize(const ConeSystem<Dim>& system) {
         else
             add(c, d_inverse_[c]);
     }
+    // First what the factors may see, then, with the factors made, what the products must.
     for (const auto& [c, inverse] : tempered_) add(c, inverse);
     if (!body_matrix_.factorize()) return false;
     for (const auto& [c, inverse] : tempered_) add(c, d_inverse_[c] - inverse);
@@ -217,6 +221,8 @@ void KrylovConeSolver<Dim>::add(std::size_t c, const Small& inverse) {
 /// Cuts s of D = (a 0; s T) down to what leaves D + D^T positive definite; false if it is.
 template <int Dim>
 bool KrylovConeSolver<Dim>::temper(Small& d) {
+    // With the symmetric part positive definite, incomplete factors exist in practice. Needed:
+    // s^T T^-1 s <= 4 a.
     auto s = d.template bottomLeftCorner<Dim - 1, 1>();
     const Eigen::Matrix<double, Dim - 1, Dim - 1> t =
         d.template bottomRightCorner<Dim - 1, Dim - 1>();
@@ -261,8 +267,10 @@ bool KrylovConeSolver<Dim>::solve(const ConeSystem<Dim>& system, const Vec& b, V
     const long limit = iteration_count_ + max_iterations;
     if (in_body_space_ && !rounding_) {
         start_ = x;
+        // Half of what is allowed, as the other way may be needed from the start.
         const long half = iteration_count_ + (max_iterations + 1) / 2;
         if (improve(system, b, x, tolerance, half)) return true;
+        // For the rest of the path: D shrinks with every step, and rounding does not go away.
         rounding_ = true;
         if (!factorize(system)) return false;
         x = start_;

@@ -37,6 +37,8 @@ class OverlapCertificate {
         r_.assign(n, Vector<Dim>::Zero());
         constexpr int sweeps = 32;
         gauss_seidel_.params = {.max_sweeps = sweeps, .tolerance = 0.0};
+        // Along such an l impulses grow by the same amount in every sweep, while all that can
+        // settle settles: the growth of the second half is l.
         gauss_seidel_.solve(w, free_velocity, std::span<const Signorini<Dim>>(laws_), r_);
         before_ = r_;
         gauss_seidel_.solve(w, free_velocity, std::span<const Signorini<Dim>>(laws_), r_);
@@ -66,6 +68,7 @@ class OverlapCertificate {
     }
     /// Whether scaled normal impulses l are a proof.
     bool holds(const Eigen::VectorXd& l, const System& system) {
+        // Two numbers without units: how little l moves, and how clearly it meets the velocity.
         system.multiply(l, u_);
         constexpr double rounding = 1e-9, clear = 1e-6;
         const double size = l.norm();

@@ -63,7 +63,7 @@ struct ProjectedGradientParams {
 /// large ratios of masses. Tight tolerances take long where contacts slip slowly: the exact law has
 /// no potential there, the residual wanders, and the best impulses met are returned as
 /// `iteration_limit`.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 class ProjectedGradient : public ConeEngine<Dim, Law, ProjectedGradient<Dim, Law>> {
   public:
     explicit ProjectedGradient(ProjectedGradientParams params = {}) : params(params) {}
@@ -143,7 +143,7 @@ class ProjectedGradient : public ConeEngine<Dim, Law, ProjectedGradient<Dim, Law
     double scale_ = 0.0;
 };
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 void ProjectedGradient<Dim, Law>::iterate_spectral(Vec& best) {
     const auto& system = this->system_;
     constexpr int short_steps = 4;  // after each long one
@@ -158,6 +158,7 @@ void ProjectedGradient<Dim, Law>::iterate_spectral(Vec& best) {
             return;
         }
         system.multiply(d_, w_);
+        // Of f along d: with r, u and W d at hand no further product is needed.
         const double curvature = d_.dot(w_);
 
         // The longest lambda with f(r + lambda d) <= max f + sufficient lambda g.d; where that is
@@ -205,7 +206,7 @@ void ProjectedGradient<Dim, Law>::iterate_spectral(Vec& best) {
     }
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 void ProjectedGradient<Dim, Law>::iterate_accelerated(Vec& best) {
     const auto& system = this->system_;
     y_ = r_;
@@ -219,6 +220,7 @@ void ProjectedGradient<Dim, Law>::iterate_accelerated(Vec& best) {
         if (!std::isfinite(step.square)) return;
         system.multiply(d_, w_);
         const double curvature = d_.dot(w_);
+        // f curves more than 1 / alpha along the step: momentum would not be justified.
         if (curvature * alpha > step.square && alpha > shortest_step) {
             alpha = std::max(shortest_step, std::min(0.5 * alpha, 0.9 * step.square / curvature));
             continue;
@@ -234,6 +236,7 @@ void ProjectedGradient<Dim, Law>::iterate_accelerated(Vec& best) {
         }
         d_ = next_ - r_;
         w_ = u_next_ - u_;
+        // Gradient at y times the step from r: momentum that points uphill is dropped.
         double uphill = uy_.dot(d_);
         for (std::size_t c = 0; c < system.contact_count(); ++c)
             uphill += shift_[static_cast<Eigen::Index>(c)] * d_[system.first(c)];

@@ -61,7 +61,7 @@ struct ProximalNewtonParams {
 ///
 /// `no_solution` is reported where impulses grow along normal ones that move nothing and yet meet a
 /// velocity: no motion separates all contacts then (Farkas' lemma).
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 class ProximalNewton : public ConeEngine<Dim, Law, ProximalNewton<Dim, Law>> {
   public:
     explicit ProximalNewton(ProximalNewtonParams params = {}) : params(params) {}
@@ -108,12 +108,12 @@ class ProximalNewton : public ConeEngine<Dim, Law, ProximalNewton<Dim, Law>> {
 };
 
 /// Takes the unknowns; returns the size of the inner equations' error.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 double ProximalNewton<Dim, Law>::evaluate(const Vec& x) {
     return smooth_ ? evaluate_smooth(x) : evaluate_sharp(x);
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 double ProximalNewton<Dim, Law>::evaluate_smooth(const Vec& x) {
     const auto& system = this->system_;
     r_.resize(x.size());
@@ -131,7 +131,7 @@ double ProximalNewton<Dim, Law>::evaluate_smooth(const Vec& x) {
     return error_.norm();
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 double ProximalNewton<Dim, Law>::evaluate_sharp(const Vec& r) {
     const auto& system = this->system_;
     r_ = r;
@@ -152,9 +152,10 @@ double ProximalNewton<Dim, Law>::evaluate_sharp(const Vec& r) {
 }
 
 /// Newton's step_ from the unknowns evaluated last; not finite if there is none.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 void ProximalNewton<Dim, Law>::find_direction() {
     auto& system = this->system_;
+    // The unknown is x = r - u: dx = (1 + D) dr, as in NewtonPolish.
     if (smooth_) {
         d_.resize(pairs_.size());
         for (std::size_t c = 0; c < pairs_.size(); ++c) {
@@ -178,7 +179,7 @@ void ProximalNewton<Dim, Law>::find_direction() {
 }
 
 /// Fills D = alpha + B^-1 A and the right-hand side -B^-1 error.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 void ProximalNewton<Dim, Law>::differentiate_sharp() {
     constexpr double soft = 1e-9;
     const auto& system = this->system_;
@@ -187,6 +188,8 @@ void ProximalNewton<Dim, Law>::differentiate_sharp() {
     for (std::size_t c = 0; c < d_.size(); ++c) {
         const Eigen::Index i = system.first(c);
         const double mu = system.cone(c).mu;
+        // Open: A = 1, B = 0 (made soft). Stuck: A = 0, B = rho. Sliding: the projection on the
+        // disc turns with x_t and its radius grows with x_n.
         const Vector<Dim> x = r_.template segment<Dim>(i) - rho() * inner_velocity(i);
         const Tangent x_t = x.template tail<Dim - 1>();
         const double length = x_t.norm(), radius = mu * std::max(x[0], 0.0);
@@ -217,7 +220,7 @@ void ProximalNewton<Dim, Law>::differentiate_sharp() {
 }
 
 /// Newton steps from centre_ until the inner error is small beside the outer step.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 typename ProximalNewton<Dim, Law>::Inner ProximalNewton<Dim, Law>::solve_inner(Vec& best,
                                                                                int& iteration) {
     constexpr int most = 20;
@@ -238,12 +241,14 @@ typename ProximalNewton<Dim, Law>::Inner ProximalNewton<Dim, Law>::solve_inner(V
         find_direction();
         if (!step_.allFinite()) return Inner::stopped;
         from_ = x_;
+        // Not monotone: statuses flip on the way, and the error with them.
         const double allowed = *std::max_element(recent.begin(), recent.end());
         double step = 1.0;
         x_ += step_;
         while (!((error = evaluate(x_)) <= (1.0 - 0.01 * step) * allowed)) {
             step *= 0.5;
             if (step < shortest) {
+                // So that r_ and u_ are those of the last step taken.
                 evaluate(from_);
                 return Inner::stopped;
             }
@@ -258,7 +263,7 @@ typename ProximalNewton<Dim, Law>::Inner ProximalNewton<Dim, Law>::solve_inner(V
     return Inner::stopped;
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 void ProximalNewton<Dim, Law>::iterate(Vec& best) {
     require_positive("proximal", params.proximal);
     constexpr double least = 1e-10, most = 1e4;
@@ -276,12 +281,15 @@ void ProximalNewton<Dim, Law>::iterate(Vec& best) {
         set_smoothness(residual);
         const Inner inner = solve_inner(best, iteration);
         this->report_.iterations = iteration;  // also where the last step was not offered
+        // Impulses that run away: the proximal point of a problem without solution moves on along a
+        // proof of it by a constant step.
         if (r_.norm() > large * this->system_.free_velocity().norm() && proves_overlap()) {
             this->report_.status = SolveStatus::no_solution;
             return;
         }
         if (inner == Inner::over) return;
         if (inner == Inner::stopped) ++stops;
+        // Where statuses are undecided the sharp equations cycle; smooth ones go between them.
         const bool tired = smooth_ ? stops == smooth_stops || alpha_ > most : stops == sharp_stops;
         if (tired && !returned) {
             returned = smooth_;
@@ -295,6 +303,7 @@ void ProximalNewton<Dim, Law>::iterate(Vec& best) {
         const double reached = this->system_.residual(r_, u_);
         if (inner == Inner::solved && reached < 10.0 * residual) {
             constexpr int easily = 4;
+            // An inner problem of few steps was too easy: nearer to the given one next time.
             if (easy_ <= 2 * easily) alpha_ *= easy_ <= easily ? fall : std::sqrt(fall);
             alpha_ = std::max(alpha_, least);
         } else {
@@ -307,7 +316,7 @@ void ProximalNewton<Dim, Law>::iterate(Vec& best) {
 }
 
 /// sqrt(eps) of the smooth pairs, from the error at the centre.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 void ProximalNewton<Dim, Law>::set_smoothness(double residual) {
     const auto& system = this->system_;
     const double error = residual * std::max(centre_.norm(), system.free_velocity().norm());
@@ -315,7 +324,7 @@ void ProximalNewton<Dim, Law>::set_smoothness(double residual) {
 }
 
 /// Whether the last outer step's normal impulses prove that no solution exists.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 bool ProximalNewton<Dim, Law>::proves_overlap() {
     const auto& system = this->system_;
     right_.setZero(r_.size());

@@ -48,7 +48,7 @@ struct EnumerationParams {
 /// `no_solution` where there is none and the search was complete, `stalled` where it was not.
 /// Cost: up to 4^n (plane) or (2 + starts)^n (space) systems of Dim n equations, and some
 /// Newton steps for each of the latter. Throws input_error for more than 8 (4) contacts.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 class Enumeration : public ConeEngine<Dim, Law, Enumeration<Dim, Law>> {
   public:
     explicit Enumeration(EnumerationParams params = {}) : params(params) {}
@@ -57,7 +57,8 @@ class Enumeration : public ConeEngine<Dim, Law, Enumeration<Dim, Law>> {
     using Solution = EnumeratedSolution<Dim>;
     static constexpr std::size_t max_contacts = SlipAngle<Dim>::max_contacts;
 
-    /// All solutions of a problem; none for laws without a cone.
+    /// All solutions of a problem. Throws input_error where a law has no cone, and for too many
+    /// contacts.
     const std::vector<Solution>& enumerate(const ContactProblem<Dim, Law>& p) {
         return enumerate(DelassusSparse<Dim>(p.jacobian, p.inverse_mass), p.free_velocity, p.laws);
     }
@@ -66,13 +67,12 @@ class Enumeration : public ConeEngine<Dim, Law, Enumeration<Dim, Law>> {
                                            std::span<const Law> laws) {
         solutions_.clear();
         search_ = {};
-        auto cones = cones_of<Dim>(laws);
-        if (!cones) return solutions_;
+        std::vector<FrictionCone<Dim>> cones = Base::require_cones(laws);
         require_in("number of contacts", static_cast<double>(laws.size()), 0,
                    static_cast<double>(max_contacts));
         ResidualMeasure<Dim> measure;
         measure.prepare(w);
-        this->system_.assign(w, free_velocity, std::move(*cones), measure);
+        this->system_.assign(w, free_velocity, std::move(cones), measure);
         find_all();
         return solutions_;
     }
@@ -92,7 +92,7 @@ class Enumeration : public ConeEngine<Dim, Law, Enumeration<Dim, Law>> {
     std::vector<Solution> solutions_;
 };
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 void Enumeration<Dim, Law>::iterate(Eigen::VectorXd& best) {
     require_in("number of contacts", static_cast<double>(this->system_.contact_count()), 0,
                static_cast<double>(max_contacts));
@@ -113,7 +113,7 @@ void Enumeration<Dim, Law>::iterate(Eigen::VectorXd& best) {
     }
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, ConeLaw<Dim> Law>
 void Enumeration<Dim, Law>::find_all() {
     require_in("starts", params.starts, 1, 64);
     auto& system = this->system_;

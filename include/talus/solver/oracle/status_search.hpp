@@ -130,6 +130,7 @@ requires SpaceDimension<Dim>
 void StatusSearch<Dim>::try_statuses(std::size_t contact) {
     if (contact < status_.size()) {
         for (const auto s : {ContactStatus::open, ContactStatus::stuck, ContactStatus::sliding}) {
+            // Without friction stuck and sliding have the same normal equation: one is enough.
             if (s == ContactStatus::stuck && mu(contact) == 0.0) continue;
             status_[contact] = s;
             try_statuses(contact + 1);
@@ -144,6 +145,7 @@ void StatusSearch<Dim>::try_statuses(std::size_t contact) {
     sliders_.clear();
     for (std::size_t c = 0; c < status_.size(); ++c)
         if (slides_with_friction(c)) sliders_.push_back(c);
+    // One slider: its directions are roots of a polynomial, and all are found.
     if constexpr (Slip::turns) {
         if (sliders_.size() == 1) return try_all_roots();
         if (sliders_.size() > 1) complete_ = false;
@@ -157,6 +159,7 @@ void StatusSearch<Dim>::try_directions(std::size_t slider) {
     if (slider < sliders_.size()) {
         const int starts = Slip::turns ? starts_ : 2;
         for (int k = 0; k < starts; ++k) {
+            // All directions, slider by slider: starts^n of them.
             // Newton's method moves the angles: they are set anew each time.
             const auto before = angle_;
             angle_[sliders_[slider]] = Slip::start(k, starts);
@@ -172,6 +175,7 @@ void StatusSearch<Dim>::try_directions(std::size_t slider) {
 template <int Dim>
 requires SpaceDimension<Dim>
 void StatusSearch<Dim>::assemble() {
+    // Stuck: u = 0 for any r. Sliding: u_n = 0 for a pressure along the ray. Open: nothing.
     const Index size = w_.rows();
     Index unknowns = 0;
     for (const auto s : status_)
@@ -200,6 +204,7 @@ bool StatusSearch<Dim>::solve_linear() {
     assemble();
     a_ = rows_ * w_ * rays_;
     const Vec b = -(rows_ * q_);
+    // Singular systems are those of hyperstatic statuses: of their solutions, one is tried.
     singular_ = !detail::solve_dense(a_, b, x_);
     r_ = rays_ * x_;
     u_ = w_ * r_ + q_;
@@ -213,6 +218,8 @@ bool StatusSearch<Dim>::follow_directions() {
     const auto count = static_cast<Index>(sliders_.size());
     constexpr int most = 40;
     for (int step = 0; step < most; ++step) {
+        // Angles given, the pressures are linear; what is left is f_s = u_t . across = 0 for each
+        // slider, on which Newton's method turns the angles.
         if (!solve_linear()) return false;
         const double speed = std::max(u_.norm(), q_.norm());
         Vec f(count);
@@ -236,10 +243,12 @@ bool StatusSearch<Dim>::follow_directions() {
             const auto across = Slip::turned(angle_[c]);
             for (Index t = 0; t < count; ++t)
                 jacobian(s, t) = du.col(t).template segment<Dim - 1>(i + 1).dot(across);
+            // The direction across turns as well.
             jacobian(s, s) -= u_.template segment<Dim - 1>(i + 1).dot(Slip::direction(angle_[c]));
         }
         Vec turn = -detail::dense_solution(jacobian, f);
         if (!turn.allFinite()) return false;
+        // Beyond that the trigonometric functions are not near to linear.
         constexpr double longest = 0.5;  // [rad]
         const double largest = turn.template lpNorm<Eigen::Infinity>();
         if (largest > longest) turn *= longest / largest;
@@ -266,6 +275,8 @@ template <int Dim>
 requires SpaceDimension<Dim>
 void StatusSearch<Dim>::try_all_roots() {
     constexpr std::size_t samples = 5;
+    // Samples where D is small carry no digits: other angles are tried. By Cramer's rule u is a
+    // polynomial in the direction over D.
     for (const double offset : {0.1, 0.4, 0.8}) {
         std::array<double, samples> f;
         double least = std::numeric_limits<double>::infinity(), most = 0.0;
@@ -293,6 +304,7 @@ void StatusSearch<Dim>::try_all_roots() {
 template <int Dim>
 requires SpaceDimension<Dim>
 bool StatusSearch<Dim>::obeys_inequalities() const {
+    // Equations hold by construction: what is left of the law are its inequalities.
     const double speed = rounding * std::max(q_.norm(), 1e-300);
     const double impulse = rounding * r_.norm();
     for (std::size_t c = 0; c < status_.size(); ++c) {
@@ -320,6 +332,7 @@ void StatusSearch<Dim>::accept() {
         if (singular_) complete_ = false;
         return;
     }
+    // Neighbouring statuses share their border: a solution on it is found by both.
     constexpr double same = 1e-6;
     for (const Found& other : found_)
         if ((other.r - r_).norm() <= same * std::max(other.r.norm(), q_.norm())) return;

@@ -55,21 +55,33 @@ class AcceleratedGaussSeidel {
 
     /// Solves `problem` from the warm start `r`, into `r`. Throws input_error on parameters out of
     /// range or arrays of different lengths.
-    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
-        if (has_scalar_inertia(problem.inverse_mass)) {
-            scalar_product_.assign(problem.jacobian, problem.inverse_mass);
-            return solve(scalar_product_, problem.free_velocity, problem.laws, r);
-        }
-        product_.assign(problem.jacobian, problem.inverse_mass);
-        return solve(product_, problem.free_velocity, problem.laws, r);
-    }
+    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r);
     const SolveReport& solve(AssembledProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
         return solve(problem.delassus, problem.free_velocity, problem.laws, r);
+    }
+    const SolveReport& solve(DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity,
+                             std::span<const Law> laws, std::span<Vector<Dim>> r);
+    const SolveReport& solve(DelassusGlobal<Dim>& w, std::span<const Vector<Dim>> free_velocity,
+                             std::span<const Law> laws, std::span<Vector<Dim>> r) {
+        return solve(w.assembled(), free_velocity, laws, r);
     }
     /// The same with an operator of the caller's.
     template <SweepableDelassus<Dim> W>
     const SolveReport& solve(W& w, std::span<const Vector<Dim>> free_velocity,
                              std::span<const Law> laws, std::span<Vector<Dim>> r) {
+        return run(w, free_velocity, laws, r);
+    }
+
+    const SolveReport& report() const { return report_; }  ///< of the last solve
+
+  private:
+    template <class W>
+    using Task = SweepTask<Dim, Law, W>;
+    using Vec = Eigen::VectorXd;
+
+    template <class W>
+    const SolveReport& run(W& w, std::span<const Vector<Dim>> free_velocity,
+                           std::span<const Law> laws, std::span<Vector<Dim>> r) {
         const SweepTask<Dim, Law, W> task{w, free_velocity, laws, r};
         task.require_sizes();
         require_non_negative("max_iterations", params.max_iterations);
@@ -82,13 +94,6 @@ class AcceleratedGaussSeidel {
         if (!verify(task, 0)) iterate(task);
         return report_;
     }
-
-    const SolveReport& report() const { return report_; }  ///< of the last solve
-
-  private:
-    template <class W>
-    using Task = SweepTask<Dim, Law, W>;
-    using Vec = Eigen::VectorXd;
 
     template <class W>
     void iterate(const Task<W>& task) {
@@ -105,10 +110,13 @@ class AcceleratedGaussSeidel {
             for (std::size_t i = 0; i < n; ++i)
                 change += (task.r[i] - y_[i]).squaredNorm() / kernel_.measure().effective_mass(i);
             change = std::sqrt(change);
+            // The increment bounds the residual by a ratio that changes slowly: a residual, half a
+            // sweep, is paid for only where it may be the last.
             const bool hopeful = !(change * ratio > params.tolerance);
             if (k == params.max_iterations || k == next_look || hopeful) {
                 if (verify(task, k) || change == 0.0 || k == params.max_iterations) return;
                 ratio = report_.residual / change;
+                // After 1, 2, 4, 7, 11...: history for the observer of the report.
                 if (k == next_look) next_look += 1 + next_look / 2;
             }
             if (params.acceleration == Acceleration::nesterov)
@@ -128,84 +136,11 @@ class AcceleratedGaussSeidel {
         has_last_ = false;
     }
 
-    /// y := x + beta (x - x_before), without memory after an increment that grew.
-    void momentum(std::span<const Vector<Dim>> x, double change) {
-        if (change > last_change_ || time_ == 1.0) {
-            x_.assign(x.begin(), x.end());
-            y_.assign(x.begin(), x.end());
-            const bool first = time_ == 1.0 && change <= last_change_;
-            time_ = first ? 0.5 * (1.0 + std::sqrt(5.0)) : 1.0;
-            last_change_ = first ? change : std::numeric_limits<double>::infinity();
-            return;
-        }
-        last_change_ = change;
-        const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * time_ * time_));
-        const double beta = (time_ - 1.0) / next;
-        time_ = next;
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            y_[i] = x[i] + beta * (x[i] - x_[i]);
-            x_[i] = x[i];
-        }
-    }
-
-    /// y := the affine combination of the last T(y) whose increment is least. `best` is the
-    /// smallest increment met.
-    void combine(std::span<const Vector<Dim>> x, double change, double& best) {
-        const auto n = static_cast<Eigen::Index>(Dim * x.size());
-        const int depth = params.depth;
-        if (image_.rows() != n || image_.cols() != depth) {
-            image_.resize(n, depth);
-            increment_.resize(n, depth);
-        }
-        gram_.resize(depth, depth);
-        last_image_.resize(n);
-        last_increment_.resize(n);
-        now_image_.resize(n);
-        now_increment_.resize(n);
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            const double scale = 1.0 / std::sqrt(kernel_.measure().effective_mass(i));
-            const auto at = static_cast<Eigen::Index>(Dim * i);
-            now_image_.template segment<Dim>(at) = scale * x[i];
-            now_increment_.template segment<Dim>(at) = scale * (x[i] - y_[i]);
-        }
-        if (change > 2.0 * best) {
-            reset();
-            best = change;
-            y_.assign(x.begin(), x.end());
-            return;
-        }
-        best = std::min(best, change);
-        if (has_last_) {
-            newest_ = (newest_ + 1) % depth;
-            columns_ = std::min(columns_ + 1, depth);
-            image_.col(newest_) = now_image_ - last_image_;
-            increment_.col(newest_) = now_increment_ - last_increment_;
-            for (int j = 0; j < columns_; ++j)
-                gram_(newest_, j) = gram_(j, newest_) =
-                    increment_.col(newest_).dot(increment_.col(j));
-        }
-        last_image_.swap(now_image_);
-        last_increment_.swap(now_increment_);
-        has_last_ = true;
-        if (columns_ == 0) {
-            y_.assign(x.begin(), x.end());
-            return;
-        }
-        small_ = gram_.topLeftCorner(columns_, columns_);
-        constexpr double regular = 1e-10;  // Gram matrices carry half the digits
-        small_.diagonal().array() += regular * small_.trace();
-        weights_ = increment_.leftCols(columns_).transpose() * last_increment_;
-        weights_ = small_.ldlt().solve(weights_).eval();
-        now_image_.noalias() = last_image_ - image_.leftCols(columns_) * weights_;
-        if (!now_image_.allFinite()) {
-            reset();
-            y_.assign(x.begin(), x.end());
-            return;
-        }
-        for (std::size_t i = 0; i < x.size(); ++i)
-            y_[i] = now_image_.template segment<Dim>(static_cast<Eigen::Index>(Dim * i)) *
-                    std::sqrt(kernel_.measure().effective_mass(i));
-    }
+    void momentum(std::span<const Vector<Dim>> x, double change);
+    void combine(std::span<const Vector<Dim>> x, double change, double& best);
+    void scale_iterate(std::span<const Vector<Dim>> x);
+    void remember();
+    bool find_combination();
 
     /// Evaluates the residual afresh, notes it, and tells whether the solve is over.
     template <class W>
@@ -230,7 +165,9 @@ class AcceleratedGaussSeidel {
     DelassusProduct<Dim> product_;
     DelassusProduct<Dim, double> scalar_product_;
     SweepKernel<Dim, Law> kernel_;
+    // y_: where the next map begins; kept_: the last finite impulses measured.
     std::vector<Vector<Dim>> x_, y_, kept_;
+    // Momentum: the last T(y), Nesterov's time and the last increment.
     double time_ = 1.0, last_change_ = 0.0;
     // Anderson's memory, in scaled units: differences of T(y) and of T(y) - y, in a ring.
     Eigen::MatrixXd image_, increment_, gram_, small_;
@@ -239,5 +176,121 @@ class AcceleratedGaussSeidel {
     bool has_last_ = false;
     SolveReport report_;
 };
+
+// Not inline, so that `extern template class` spares a user all of it.
+
+template <int Dim, ContactLaw<Dim> Law>
+const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
+                                                           std::span<Vector<Dim>> r) {
+    if (has_scalar_inertia(problem.inverse_mass)) {
+        scalar_product_.assign(problem.jacobian, problem.inverse_mass);
+        return run(scalar_product_, problem.free_velocity, problem.laws, r);
+    }
+    product_.assign(problem.jacobian, problem.inverse_mass);
+    return run(product_, problem.free_velocity, problem.laws, r);
+}
+template <int Dim, ContactLaw<Dim> Law>
+const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(
+    DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
+    std::span<Vector<Dim>> r) {
+    return run(w, free_velocity, laws, r);
+}
+
+/// y := x + beta (x - x_before), without memory after an increment that grew.
+template <int Dim, ContactLaw<Dim> Law>
+void AcceleratedGaussSeidel<Dim, Law>::momentum(std::span<const Vector<Dim>> x, double change) {
+    if (change > last_change_ || time_ == 1.0) {
+        x_.assign(x.begin(), x.end());
+        y_.assign(x.begin(), x.end());
+        const bool first = time_ == 1.0 && change <= last_change_;
+        time_ = first ? 0.5 * (1.0 + std::sqrt(5.0)) : 1.0;
+        last_change_ = first ? change : std::numeric_limits<double>::infinity();
+        return;
+    }
+    last_change_ = change;
+    // Nesterov's sequence: 1, 1.62, 2.19..., about k / 2; beta tends to 1 as 1 - 3 / k.
+    const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * time_ * time_));
+    const double beta = (time_ - 1.0) / next;
+    time_ = next;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        y_[i] = x[i] + beta * (x[i] - x_[i]);
+        x_[i] = x[i];
+    }
+}
+
+/// y := the affine combination of the last T(y) whose increment is least. `best` is the smallest
+/// increment met.
+template <int Dim, ContactLaw<Dim> Law>
+void AcceleratedGaussSeidel<Dim, Law>::combine(std::span<const Vector<Dim>> x, double change,
+                                               double& best) {
+    scale_iterate(x);
+    if (change > 2.0 * best) {
+        reset();
+        best = change;
+        y_.assign(x.begin(), x.end());
+        return;
+    }
+    best = std::min(best, change);
+    if (has_last_) remember();
+    last_image_.swap(now_image_);
+    last_increment_.swap(now_increment_);
+    has_last_ = true;
+    if (columns_ == 0 || !find_combination()) {
+        y_.assign(x.begin(), x.end());
+        return;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i)
+        y_[i] = now_image_.template segment<Dim>(static_cast<Eigen::Index>(Dim * i)) *
+                std::sqrt(kernel_.measure().effective_mass(i));
+}
+
+/// T(y) and T(y) - y in the norm |D^-1/2 .|, in which contacts of all masses count alike.
+template <int Dim, ContactLaw<Dim> Law>
+void AcceleratedGaussSeidel<Dim, Law>::scale_iterate(std::span<const Vector<Dim>> x) {
+    const auto n = static_cast<Eigen::Index>(Dim * x.size());
+    const int depth = params.depth;
+    if (image_.rows() != n || image_.cols() != depth) {
+        image_.resize(n, depth);
+        increment_.resize(n, depth);
+    }
+    gram_.resize(depth, depth);
+    last_image_.resize(n);
+    last_increment_.resize(n);
+    now_image_.resize(n);
+    now_increment_.resize(n);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double scale = 1.0 / std::sqrt(kernel_.measure().effective_mass(i));
+        const auto at = static_cast<Eigen::Index>(Dim * i);
+        now_image_.template segment<Dim>(at) = scale * x[i];
+        now_increment_.template segment<Dim>(at) = scale * (x[i] - y_[i]);
+    }
+}
+
+/// Puts the last differences in the place of the oldest ones, and their products into the Gram
+/// matrix: depth products in all, as the others are known.
+template <int Dim, ContactLaw<Dim> Law>
+void AcceleratedGaussSeidel<Dim, Law>::remember() {
+    newest_ = (newest_ + 1) % params.depth;
+    columns_ = std::min(columns_ + 1, params.depth);
+    image_.col(newest_) = now_image_ - last_image_;
+    increment_.col(newest_) = now_increment_ - last_increment_;
+    for (int j = 0; j < columns_; ++j)
+        gram_(newest_, j) = gram_(j, newest_) = increment_.col(newest_).dot(increment_.col(j));
+}
+
+/// now_image_ := last image - differences * weights, the weights of least increment
+/// [WalkerNi2011]. False, with an empty memory, if that is not finite.
+template <int Dim, ContactLaw<Dim> Law>
+bool AcceleratedGaussSeidel<Dim, Law>::find_combination() {
+    small_ = gram_.topLeftCorner(columns_, columns_);
+    constexpr double regular = 1e-10;  // Gram matrices carry half the digits
+    small_.diagonal().array() += regular * small_.trace();
+    weights_ = increment_.leftCols(columns_).transpose() * last_increment_;
+    weights_ = small_.ldlt().solve(weights_).eval();
+    now_image_.noalias() = last_image_ - image_.leftCols(columns_) * weights_;
+    if (now_image_.allFinite()) return true;
+    reset();
+    return false;
+}
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 #include <talus/core/input.hpp>
 #include <talus/core/observer.hpp>
 #include <talus/problem/delassus_product.hpp>
+#include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/sweeps/sweep_kernel.hpp>
 #include <talus/solver/sweeps/sweep_order.hpp>
@@ -21,13 +22,19 @@ namespace talus {
 
 namespace detail {
 
-/// The operators of rigid bodies that a solver keeps between solves: none for rows that are not
-/// those of space.
-template <int Rows>
-struct RigidBodyOperators {};
-template <int Rows>
-requires SpaceDimension<Rows>
-struct RigidBodyOperators<Rows> {
+/// Whether problems of rigid bodies have the rows of a law.
+template <int Rows, class Law>
+inline constexpr bool rows_of_bodies = SpaceDimension<Rows> && !has_rolling_rows<Law>;
+
+/// The problem of rigid bodies for a law, and the operators that a solver keeps of such between
+/// solves: nothing where rows are not those of space.
+template <int Rows, class Law>
+struct RigidBodies {
+    struct Problem;
+};
+template <int Rows, class Law>
+requires(rows_of_bodies<Rows, Law>) struct RigidBodies<Rows, Law> {
+    using Problem = ContactProblem<Rows, Law>;
     DelassusProduct<Rows> tensor;
     DelassusProduct<Rows, double> scalar;
 };
@@ -75,6 +82,10 @@ class GaussSeidel {
     /// Residuals kept in SolveReport::history; from then on the last one is replaced.
     static constexpr std::size_t history_limit = 64;
 
+    /// Problems of rigid bodies; of an unknown kind, and taken by no `solve`, for rows that are not
+    /// those of space.
+    using Problem = typename detail::RigidBodies<Dim, Law>::Problem;
+
     explicit GaussSeidel(GaussSeidelParams params = {}) : params(params) {}
 
     /// To be changed between solves at will; checked by `solve`.
@@ -84,20 +95,28 @@ class GaussSeidel {
     /// after each sweep and may return bool, false to stop; calling it costs one evaluation of the
     /// residual per sweep, talus::Ignore costs nothing. Throws input_error on parameters out of
     /// range or arrays of different lengths.
-    template <int Space, class OnSweep = Ignore>
-    requires(Space == Dim) const SolveReport& solve(const ContactProblem<Space, Law>& problem,
-                                                    std::span<Vector<Dim>> r,
-                                                    OnSweep&& on_sweep = {}) {
+    template <class OnSweep>
+    const SolveReport& solve(const Problem& problem, std::span<Vector<Dim>> r,
+                             OnSweep&& on_sweep) requires(detail::rows_of_bodies<Dim, Law>) {
         if (has_scalar_inertia(problem.inverse_mass)) {
-            product_.scalar.assign(problem.jacobian, problem.inverse_mass);
-            return solve(product_.scalar, problem.free_velocity, problem.laws, r, on_sweep);
+            bodies_.scalar.assign(problem.jacobian, problem.inverse_mass);
+            return solve(bodies_.scalar, problem.free_velocity, problem.laws, r, on_sweep);
         }
-        product_.tensor.assign(problem.jacobian, problem.inverse_mass);
-        return solve(product_.tensor, problem.free_velocity, problem.laws, r, on_sweep);
+        bodies_.tensor.assign(problem.jacobian, problem.inverse_mass);
+        return solve(bodies_.tensor, problem.free_velocity, problem.laws, r, on_sweep);
+    }
+    /// Unobserved.
+    const SolveReport& solve(const Problem& problem,
+                             std::span<Vector<Dim>> r) requires(detail::rows_of_bodies<Dim, Law>);
+    const SolveReport& solve(AssembledProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
+        return solve(problem.delassus, problem.free_velocity, problem.laws, r);
     }
 
-    /// The same with an operator of the caller's: assembled, or from a system that is not made of
-    /// rigid bodies. `w` is left following the impulses returned.
+    /// With a W given by its blocks, which is left following the impulses returned.
+    const SolveReport& solve(DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity,
+                             std::span<const Law> laws, std::span<Vector<Dim>> r);
+    /// The same with an operator of the caller's, say from a system that is not made of rigid
+    /// bodies. `w` is left following the impulses returned.
     template <SweepableDelassus<Dim> W, class OnSweep = Ignore>
     const SolveReport& solve(W& w, std::span<const Vector<Dim>> free_velocity,
                              std::span<const Law> laws, std::span<Vector<Dim>> r,
@@ -180,11 +199,28 @@ class GaussSeidel {
         return report_.status != SolveStatus::iteration_limit;
     }
 
-    detail::RigidBodyOperators<Dim> product_;
+    detail::RigidBodies<Dim, Law> bodies_;
     SweepKernel<Dim, Law> kernel_;
     std::vector<Vector<Dim>> last_finite_;
     SweepSequence sequence_;
     SolveReport report_;
 };
+
+// The forms that most programs use, not inline: `extern template class` spares a user all of them.
+
+template <int Dim, ContactLaw<Dim> Law>
+const SolveReport& GaussSeidel<Dim, Law>::solve(
+    const Problem& problem, std::span<Vector<Dim>> r) requires(detail::rows_of_bodies<Dim, Law>) {
+    // Clang 14 instantiates this also where the constraint fails.
+    if constexpr (detail::rows_of_bodies<Dim, Law>) return solve(problem, r, Ignore{});
+    return report_;
+}
+template <int Dim, ContactLaw<Dim> Law>
+const SolveReport& GaussSeidel<Dim, Law>::solve(DelassusSparse<Dim>& w,
+                                                std::span<const Vector<Dim>> free_velocity,
+                                                std::span<const Law> laws,
+                                                std::span<Vector<Dim>> r) {
+    return solve(w, free_velocity, laws, r, Ignore{});
+}
 
 }  // namespace talus

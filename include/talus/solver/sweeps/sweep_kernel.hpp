@@ -72,10 +72,12 @@ class SweepKernel {
                                                [&](std::size_t i) { return task.w.velocity(i); });
     }
 
+    /// Its effective masses are the D of the norms |D^-1/2 dr|.
     const ResidualMeasure<Dim>& measure() const { return measure_; }
 
   private:
     ResidualMeasure<Dim> measure_;
+    // By contact: what its law keeps of W_ii, the inverse of a block for Coulomb, say.
     std::vector<Prepared<Law, Dim>> prepared_;
 };
 

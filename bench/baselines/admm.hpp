@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace talus {
+namespace bench {
 
 struct AdmmParams {
     /// Iterations allowed [-], not negative: a solve with the factors of W + penalty each.
@@ -49,14 +49,14 @@ struct AdmmParams {
 /// hundreds in piles, with 1 to 5 factorisations. It loses where factors are expensive, and at
 /// tight tolerances, as all methods here that move the shift, to slow slips: ends as
 /// `iteration_limit`.
-template <int Dim, ContactLaw<Dim> Law>
-class Admm : public ConeEngine<Dim, Law, Admm<Dim, Law>> {
+template <int Dim, talus::ConeLaw<Dim> Law>
+class Admm : public talus::ConeEngine<Dim, Law, Admm<Dim, Law>> {
   public:
     explicit Admm(AdmmParams params = {}) : params(params) {}
     AdmmParams params;
 
   private:
-    using Base = ConeEngine<Dim, Law, Admm<Dim, Law>>;
+    using Base = talus::ConeEngine<Dim, Law, Admm<Dim, Law>>;
     friend Base;
     using Vec = Eigen::VectorXd;
 
@@ -67,7 +67,7 @@ class Admm : public ConeEngine<Dim, Law, Admm<Dim, Law>> {
     void iterate(Vec& best);
 
     bool factorize() {
-        d_.assign(this->system_.contact_count(), penalty_ * Matrix<Dim>::Identity());
+        d_.assign(this->system_.contact_count(), penalty_ * talus::Matrix<Dim>::Identity());
         ++factorizations_;
         return this->system_.factorize(d_);
     }
@@ -88,7 +88,7 @@ class Admm : public ConeEngine<Dim, Law, Admm<Dim, Law>> {
         shift_.resize(static_cast<Eigen::Index>(system.contact_count()));
         for (std::size_t c = 0; c < system.contact_count(); ++c) {
             const Eigen::Index i = system.first(c);
-            Vector<Dim> u = u_.template segment<Dim>(i);
+            talus::Vector<Dim> u = u_.template segment<Dim>(i);
             const double shift = system.cone(c).mu * u.template tail<Dim - 1>().norm();
             u[0] += shift;
             shift_[static_cast<Eigen::Index>(c)] = shift;
@@ -101,11 +101,11 @@ class Admm : public ConeEngine<Dim, Law, Admm<Dim, Law>> {
 
     double penalty_ = 0.0, primal_ = 0.0, dual_ = 0.0;
     int factorizations_ = 0;
-    std::vector<Matrix<Dim>> d_;
+    std::vector<talus::Matrix<Dim>> d_;
     Vec r_, z_, y_, right_, u_, shift_;
 };
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, talus::ConeLaw<Dim> Law>
 double Admm<Dim, Law>::advance() {
     auto& system = this->system_;
     right_ = penalty_ * (z_ - y_) - system.free_velocity();
@@ -115,11 +115,12 @@ double Admm<Dim, Law>::advance() {
     double primal = 0.0, dual = 0.0;
     for (std::size_t c = 0; c < system.contact_count(); ++c) {
         const Eigen::Index i = system.first(c);
-        const Vector<Dim> r = r_.template segment<Dim>(i);
-        const Vector<Dim> z = z_.template segment<Dim>(i);
-        const Vector<Dim> x = relaxation * r + (1.0 - relaxation) * z + y_.template segment<Dim>(i);
-        const Vector<Dim> nearest = system.cone(c).project(x);
-        const Vector<Dim> y = x - nearest;
+        const talus::Vector<Dim> r = r_.template segment<Dim>(i);
+        const talus::Vector<Dim> z = z_.template segment<Dim>(i);
+        const talus::Vector<Dim> x =
+            relaxation * r + (1.0 - relaxation) * z + y_.template segment<Dim>(i);
+        const talus::Vector<Dim> nearest = system.cone(c).project(x);
+        const talus::Vector<Dim> y = x - nearest;
         primal += (r - nearest).squaredNorm();
         dual += (nearest - z).squaredNorm();
         shift_[static_cast<Eigen::Index>(c)] =
@@ -134,9 +135,9 @@ double Admm<Dim, Law>::advance() {
     return std::sqrt(std::max(primal, dual)) + 0.0 * (primal + dual);
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, talus::ConeLaw<Dim> Law>
 void Admm<Dim, Law>::iterate(Vec& best) {
-    require_positive("penalty", params.penalty);
+    talus::require_positive("penalty", params.penalty);
     constexpr double imbalance = 5.0, largest_change = 20.0;
     const auto& system = this->system_;
     penalty_ = params.penalty;
@@ -179,4 +180,4 @@ void Admm<Dim, Law>::iterate(Vec& best) {
     }
 }
 
-}  // namespace talus
+}  // namespace bench

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace talus {
+namespace bench {
 
 struct ExtragradientParams {
     /// Steps allowed [-], not negative. Each takes two products with W, a rejected one takes one.
@@ -34,14 +34,14 @@ struct ExtragradientParams {
 /// some vectors beside W. Where F is not monotone (many slow slips, with much friction), or W very
 /// ill-conditioned (towers, piles from a cold start), it creeps and ends as `iteration_limit` with
 /// the best impulses met.
-template <int Dim, ContactLaw<Dim> Law>
-class Extragradient : public ConeEngine<Dim, Law, Extragradient<Dim, Law>> {
+template <int Dim, talus::ConeLaw<Dim> Law>
+class Extragradient : public talus::ConeEngine<Dim, Law, Extragradient<Dim, Law>> {
   public:
     explicit Extragradient(ExtragradientParams params = {}) : params(params) {}
     ExtragradientParams params;
 
   private:
-    using Base = ConeEngine<Dim, Law, Extragradient<Dim, Law>>;
+    using Base = talus::ConeEngine<Dim, Law, Extragradient<Dim, Law>>;
     friend Base;
     using Vec = Eigen::VectorXd;
 
@@ -56,7 +56,7 @@ class Extragradient : public ConeEngine<Dim, Law, Extragradient<Dim, Law>> {
         for (std::size_t c = 0; c < system.contact_count(); ++c) {
             const Eigen::Index i = system.first(c);
             f.template segment<Dim>(i) =
-                de_saxce_corrected<Dim>(u.template segment<Dim>(i), system.cone(c).mu);
+                talus::de_saxce_corrected<Dim>(u.template segment<Dim>(i), system.cone(c).mu);
         }
     }
     /// to = P(r - step f).
@@ -73,7 +73,7 @@ class Extragradient : public ConeEngine<Dim, Law, Extragradient<Dim, Law>> {
     Vec r_, u_, f_, ahead_, u_ahead_, f_ahead_, change_;
 };
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, talus::ConeLaw<Dim> Law>
 void Extragradient<Dim, Law>::iterate(Vec& best) {
     const auto& system = this->system_;
     constexpr double contraction = 0.9, timid = 0.3, change_of_step = 2.0 / 3.0;
@@ -113,4 +113,4 @@ void Extragradient<Dim, Law>::iterate(Vec& best) {
     }
 }
 
-}  // namespace talus
+}  // namespace bench
