@@ -6,6 +6,7 @@
 // impulses are (2, -0.7) and (1, -0.4) N s.
 //
 // Sample run:  examples/run 06_watch_convergence
+#include <talus/law/coulomb.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
