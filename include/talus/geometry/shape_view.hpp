@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/geometry/any_shape_of.hpp>
+#include <talus/geometry/ball.hpp>
+#include <talus/geometry/compound.hpp>
+#include <talus/geometry/half_space.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <variant>
+
+namespace talus {
+
+/// What the narrow phase can ask of a shape.
+enum class ShapeKind : std::uint8_t {
+    ball,        ///< is a Ball, of which closed forms are known
+    core,        ///< has core(): vertices, edges and faces
+    half_space,  ///< is a HalfSpace
+    convex,      ///< has support() and nothing better
+    compound,    ///< has children, each to be asked by itself
+    stranger     ///< none of these: can meet by a routine of its own alone
+};
+
+template <class S, int Dim>
+inline constexpr ShapeKind kind_of = std::same_as<S, Ball<Dim>>        ? ShapeKind::ball
+                                     : std::same_as<S, HalfSpace<Dim>> ? ShapeKind::half_space
+                                     : is_compound<S>                  ? ShapeKind::compound
+                                     : CoreShape<S, Dim>               ? ShapeKind::core
+                                     : ConvexShape<S, Dim>             ? ShapeKind::convex
+                                                                       : ShapeKind::stranger;
+
+template <int Dim>
+struct ShapeView;
+
+/// How to ask a shape of which only the address is known. There is one such table for each type of
+/// shape (`shape_access`), whose address therefore tells the type. Entries that do not fit the kind
+/// are null.
+template <int Dim>
+requires SpaceDimension<Dim>
+struct ShapeAccess {
+    ShapeKind kind;
+    Aabb<Dim> (*aabb)(const void* shape, const Pose<Dim>& pose);
+    CoreView<Dim> (*core)(const void* shape);
+    Vector<Dim> (*support)(const void* shape, const Vector<Dim>& d);
+    std::span<const BoundingBall<Dim>> (*bounds)(const void* compound);
+    ShapeView<Dim> (*child)(const void* compound, std::size_t i);
+};
+
+/// A shape seen through its table, its type forgotten: what lets the narrow phase be compiled once
+/// instead of once for each pair of types. Lives no longer than the shape.
+template <int Dim>
+struct ShapeView {
+    const void* shape;
+    const ShapeAccess<Dim>* access;
+
+    ShapeKind kind() const { return access->kind; }
+    bool has_core() const { return kind() == ShapeKind::ball || kind() == ShapeKind::core; }
+    /// The shape itself, of which the caller knows the type from the kind.
+    template <class S>
+    const S& as() const {
+        return *static_cast<const S*>(shape);
+    }
+    Aabb<Dim> aabb(const Pose<Dim>& pose) const { return access->aabb(shape, pose); }
+    CoreView<Dim> core() const { return access->core(shape); }
+    Vector<Dim> support(const Vector<Dim>& d) const { return access->support(shape, d); }
+    std::span<const BoundingBall<Dim>> bounds() const { return access->bounds(shape); }
+    ShapeView child(std::size_t i) const { return access->child(shape, i); }
+};
+
+template <int Dim, Shape<Dim> S>
+ShapeView<Dim> view_of(const S& shape);
+
+namespace detail {
+
+template <int Dim, class S>
+constexpr ShapeAccess<Dim> make_shape_access() {
+    constexpr ShapeKind kind = kind_of<S, Dim>;
+    ShapeAccess<Dim> access{kind, nullptr, nullptr, nullptr, nullptr, nullptr};
+    access.aabb = [](const void* s, const Pose<Dim>& pose) -> Aabb<Dim> {
+        return static_cast<const S*>(s)->aabb(pose);
+    };
+    if constexpr (CoreShape<S, Dim>)
+        access.core = [](const void* s) { return static_cast<const S*>(s)->core(); };
+    if constexpr (ConvexShape<S, Dim>)
+        access.support = [](const void* s, const Vector<Dim>& d) -> Vector<Dim> {
+            return static_cast<const S*>(s)->support(d);
+        };
+    else if constexpr (CoreShape<S, Dim>)
+        access.support = [](const void* s, const Vector<Dim>& d) -> Vector<Dim> {
+            return core_support<Dim>(static_cast<const S*>(s)->core(), d);
+        };
+    if constexpr (kind == ShapeKind::compound) {
+        access.bounds = [](const void* s) { return static_cast<const S*>(s)->bounds(); };
+        access.child = [](const void* s, std::size_t i) {
+            return view_of<Dim>(static_cast<const S*>(s)->children()[i]);
+        };
+    }
+    return access;
+}
+
+}  // namespace detail
+
+/// The table of shapes of type S.
+template <int Dim, class S>
+inline constexpr ShapeAccess<Dim> shape_access = detail::make_shape_access<Dim, S>();
+
+/// The shape without its type; of an AnyShapeOf the shape that it holds.
+template <int Dim, Shape<Dim> S>
+ShapeView<Dim> view_of(const S& shape) {
+    if constexpr (is_any_shape<S>) {
+        return std::visit([](const auto& held) { return view_of<Dim>(held); }, shape.held());
+    } else {
+        return {&shape, &shape_access<Dim, S>};
+    }
+}
+
+}  // namespace talus
