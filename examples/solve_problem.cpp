@@ -9,7 +9,7 @@
 #include <talus/io/problem_file.hpp>
 #include <talus/io/write_file.hpp>
 #include <talus/law/coulomb.hpp>
-#include <talus/solver/solver_registry.hpp>
+#include <talus/solver/any_solver.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

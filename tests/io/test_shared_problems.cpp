@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/io/read_problem.hpp>
 #include <talus/problem/residual.hpp>
+#include <talus/solver/automatic.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -10,8 +11,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-#include "common/automatic.hpp"
 
 using talus::Vector;
 

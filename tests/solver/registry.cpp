@@ -3,9 +3,5 @@
 
 #include <talus/solver/solver_registry.hpp>
 
-#include "common/automatic.hpp"
-
-template struct talus::SolverRegistry<2, talus::Coulomb<2>>;
-template struct talus::SolverRegistry<3, talus::Coulomb<3>>;
 template struct talus::SolverRegistry<2, talus::Bilateral<2>>;
 template struct talus::SolverRegistry<3, talus::Bilateral<3>>;

@@ -6,7 +6,5 @@
 #include <talus/solver/any_solver.hpp>
 
 // Compiled apart, as users may do.
-extern template struct talus::SolverRegistry<2, talus::Coulomb<2>>;
-extern template struct talus::SolverRegistry<3, talus::Coulomb<3>>;
 extern template struct talus::SolverRegistry<2, talus::Bilateral<2>>;
 extern template struct talus::SolverRegistry<3, talus::Bilateral<3>>;

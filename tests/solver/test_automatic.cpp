@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
+#include <talus/solver/automatic.hpp>
 #include <talus/spatial/local_frame.hpp>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/automatic.hpp"
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"
 

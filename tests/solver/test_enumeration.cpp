@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
+#include <talus/solver/automatic.hpp>
 #include <talus/solver/oracle/enumeration.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
@@ -8,7 +9,6 @@
 #include <numbers>
 #include <string_view>
 
-#include "common/automatic.hpp"
 #include "common/coulomb_enumeration.hpp"
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <talus/solver/automatic.hpp>
 #include <talus/solver/cones/interior_point.hpp>
 #include <talus/solver/cones/newton_polish.hpp>
 
 #include <boost/test/unit_test.hpp>
 
-#include "common/automatic.hpp"
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"
 

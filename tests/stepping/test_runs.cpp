@@ -240,6 +240,35 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_force_that_is_not_finite_is_named_and_nothing_mo
     BOOST_CHECK_EQUAL(sim.step_count(), 50);
 }
 
+/// A broad phase of one's own: every pair of which not both are obstacles, boxes or no boxes.
+struct EveryPair {
+    template <int Dim, class IsObstacle>
+    void find_pairs(std::span<const talus::Aabb<Dim>> boxes, const IsObstacle& is_obstacle,
+                    std::vector<talus::CandidatePair>& pairs) const {
+        pairs.clear();
+        const auto n = static_cast<talus::BodyIndex>(boxes.size());
+        for (talus::BodyIndex a = 0; a < n; ++a)
+            for (talus::BodyIndex b = a + 1; b < n; ++b)
+                if (!is_obstacle(a) || !is_obstacle(b)) pairs.push_back({a, b});
+    }
+};
+template <int Dim>
+struct WithEveryPair : talus::SimulationTypes<Dim> {
+    using BroadPhase = EveryPair;
+};
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(an_own_broad_phase_changes_no_bit, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto own = small_heap<Dim, WithEveryPair<Dim>>();
+    auto usual = small_heap<Dim>();
+    own.run(0.3);
+    usual.run(0.3);
+    BOOST_CHECK_GT(usual.data().contact_count(), 10u);
+    const auto &a = own.system().bodies, &b = usual.system().bodies;
+    for (std::size_t i = 0; i < a.count(); ++i)
+        BOOST_CHECK(a.position[i] == b.position[i] && a.velocity[i] == b.velocity[i]);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(settings_out_of_range_are_rejected, D, dimensions) {
     constexpr int Dim = D::value;
     const auto with_h = [](double h) {

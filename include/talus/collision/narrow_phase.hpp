@@ -8,6 +8,7 @@
 #include <talus/collision/own_pairs.hpp>
 #include <talus/collision/support_contacts.hpp>
 #include <talus/core/check.hpp>
+#include <talus/core/instantiate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -209,3 +210,6 @@ void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::NarrowPhase<2>)
+TALUS_IN_SPACE(class talus::NarrowPhase<3>)

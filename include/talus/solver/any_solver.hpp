@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/problem/body_map.hpp>
 #include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/concepts.hpp>
@@ -136,3 +138,6 @@ AnySolver<Dim, Law> make_solver(std::string_view name, SolverSettings settings =
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(struct talus::SolverRegistry<2, talus::Coulomb<2>>)
+TALUS_IN_SPACE(struct talus::SolverRegistry<3, talus::Coulomb<3>>)

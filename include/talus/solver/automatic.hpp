@@ -2,7 +2,10 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/law/cone_of.hpp>
+#include <talus/law/coulomb.hpp>
+#include <talus/law/weighted_mean.hpp>
 #include <talus/solver/cone_team.hpp>
 #include <talus/solver/impulse_memory.hpp>
 #include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
@@ -333,3 +336,8 @@ const SolveReport& Automatic<Dim, Law>::solve(DelassusGlobal<Dim>& w,
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::Automatic<2, talus::Coulomb<2>>)
+TALUS_IN_PLANE(class talus::Automatic<2, talus::WeightedMean<2, talus::Coulomb<2>>>)
+TALUS_IN_SPACE(class talus::Automatic<3, talus::Coulomb<3>>)
+TALUS_IN_SPACE(class talus::Automatic<3, talus::WeightedMean<3, talus::Coulomb<3>>>)

@@ -222,7 +222,9 @@ TALUS_OF_STEP::finish(SystemType& system, Data& data) {
 
 }  // namespace talus
 
+TALUS_IN_PLANE(class talus::ContactDetection<2, talus::AnyShape<2>, talus::HierarchicalGrid<2>>)
 TALUS_IN_PLANE(class talus::MoreauMidpoint<2, talus::DefaultLaw<2>, talus::AnyShape<2>,
                                            talus::HierarchicalGrid<2>>)
+TALUS_IN_SPACE(class talus::ContactDetection<3, talus::AnyShape<3>, talus::HierarchicalGrid<3>>)
 TALUS_IN_SPACE(class talus::MoreauMidpoint<3, talus::DefaultLaw<3>, talus::AnyShape<3>,
                                            talus::HierarchicalGrid<3>>)
