@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace talus {
@@ -54,15 +53,18 @@ struct SymmetricEigen {
         a(i, i) += t * off;
         a(i, j) = 0.0;
         for (int k = 0; k < N; ++k) {
-            if (k != i && k != j) {
-                double& kj = a(std::max(k, j), std::min(k, j));
-                double& ki = a(std::max(k, i), std::min(k, i));
-                std::tie(kj, ki) = std::pair(cosine * kj - sine * ki, sine * kj + cosine * ki);
-            }
-            double &vj = vectors(k, j), &vi = vectors(k, i);
-            std::tie(vj, vi) = std::pair(cosine * vj - sine * vi, sine * vj + cosine * vi);
+            if constexpr (N > 2)
+                if (k != i && k != j)
+                    mix(a(std::max(k, j), std::min(k, j)), a(std::max(k, i), std::min(k, i)),
+                        cosine, sine);
+            mix(vectors(k, j), vectors(k, i), cosine, sine);
         }
         return true;
+    }
+    static void mix(double& x, double& y, double cosine, double sine) {
+        const double turned = cosine * x - sine * y;
+        y = sine * x + cosine * y;
+        x = turned;
     }
     void sort() {
         for (int i = 1; i < N; ++i)

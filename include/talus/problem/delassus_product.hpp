@@ -151,13 +151,23 @@ class DelassusProduct {
         push(bodies[static_cast<std::size_t>(c.a)], 1.0, impulse, c.arm_a);
         push(bodies[static_cast<std::size_t>(c.b)], -1.0, impulse, c.arm_b);
     }
+    /// Component d of I^-1 m. By components, for the same reason as `unpaired`.
+    static double turned(const Body& x, const AngularVector<Dim>& moment, int d) {
+        if constexpr (std::same_as<Inertia, double>) {
+            return x.inverse_inertia * moment[d];
+        } else {
+            double sum = x.inverse_inertia(d, 0) * moment[0];
+            for (int k = 1; k < rotation_dof<Dim>; ++k) sum += x.inverse_inertia(d, k) * moment[k];
+            return sum;
+        }
+    }
     static void push(Body& x, double sign, const Vector<Dim>& impulse, const Vector<Dim>& arm) {
         const double mobility = sign * x.inverse_mass;
-        const AngularVector<Dim> turn = (sign * x.inverse_inertia) * moment<Dim>(arm, impulse);
+        const AngularVector<Dim> turn = moment<Dim>(arm, impulse);
         for (int d = 0; d < Dim; ++d)
             x.linear[d] = detail::unpaired(x.linear[d] + mobility * impulse[d]);
         for (int d = 0; d < rotation_dof<Dim>; ++d)
-            x.angular[d] = detail::unpaired(x.angular[d] + turn[d]);
+            x.angular[d] = detail::unpaired(x.angular[d] + sign * turned(x, turn, d));
     }
     void accumulate(std::span<const Vector<Dim>> r, std::vector<Body>& bodies) const {
         for (Body& x : bodies) {
