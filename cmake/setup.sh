@@ -8,15 +8,16 @@ root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 jobs=${TALUS_JOBS:-$(nproc)}
 export root jobs
 
-# The one list of Debian packages: what the library, its tests, examples and benches need.
-packages=(
-    g++ cmake ninja-build libeigen3-dev                 # the library
-    libboost-test-dev libgsl-dev pkg-config python3     # the tests
-    libcli11-dev nlohmann-json3-dev librsvg2-bin        # the examples
-    libhdf5-dev                                         # problem files: tests and examples
-    libbenchmark-dev                                    # the benches
-    chromium chromium-driver                            # the test of the validation report
-    clang clang-format clang-tidy libclang-rt-14-dev    # the checks
+# The one list of Debian packages, by what needs them. A package may be in several groups.
+declare -A packages=(
+    [library]="g++ cmake ninja-build libeigen3-dev"
+    [examples]="libcli11-dev nlohmann-json3-dev libhdf5-dev"
+    [tests]="libboost-test-dev pkg-config python3"           # which build the examples too
+    [browser]="chromium chromium-driver"                     # for the page of the validation report
+    [bench]="libbenchmark-dev libcli11-dev libhdf5-dev python3"
+    [validation]="libgsl-dev libcli11-dev nlohmann-json3-dev python3"
+    [clang]="clang libclang-rt-14-dev"
+    [checks]="clang-format clang-tidy"
 )
 
 say() { printf -- '-- %s\n' "$*"; }
@@ -26,30 +27,47 @@ die() {
     exit "${status:-1}"
 }
 
-# Those of `packages` that are not installed, one per line.
-missing_packages() {
+# The packages of some groups, one per line; `all` is every group.
+packages_of() {
+    local group list=''
+    for group in "$@"; do
+        if [[ $group == all ]]; then
+            list+=" ${packages[*]}"
+        else
+            list+=" ${packages[$group]:?there is no such group of packages: $group}"
+        fi
+    done
+    # shellcheck disable=SC2086  # words are wanted
+    printf '%s\n' $list | sort -u
+}
+
+# Those of the given packages that are not installed, one per line.
+missing_of() {
     local name
-    for name in "${packages[@]}"; do
+    for name in "$@"; do
         [[ $(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null) == installed* ]] ||
             printf '%s\n' "$name"
     done
 }
 
-# Installs what is missing; does nothing, and needs no network, when nothing is.
+# ensure_packages GROUP...: installs what is missing; does nothing, and needs no network, when nothing is.
 ensure_packages() {
+    local wanted
+    wanted=$(packages_of "$@") || die "in ensure_packages $*"
+    mapfile -t wanted <<<"$wanted"
     command -v dpkg-query >/dev/null || {
-        say "No dpkg on this machine: assuming that the tools are there (${packages[*]})."
+        say "No dpkg on this machine: assuming that the tools are there (${wanted[*]})." >&2
         return
     }
     local missing as_root=()
-    mapfile -t missing < <(missing_packages)
+    mapfile -t missing < <(missing_of "${wanted[@]}")
     ((${#missing[@]})) || return 0
     if ((EUID != 0)); then
         command -v sudo >/dev/null ||
             die "these packages are missing and installing them needs root or sudo: ${missing[*]}."
         as_root=(sudo)
     fi
-    say "Installing ${missing[*]}"
+    say "Installing ${missing[*]}" >&2
     local log
     log=$(mktemp)
     # A failure is judged by what is still missing, so that one bad mirror among many is no failure.
@@ -58,7 +76,7 @@ ensure_packages() {
         "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
             apt-get install -q -y --no-install-recommends "${missing[@]}"
     } >"$log" 2>&1 || true
-    mapfile -t missing < <(missing_packages)
+    mapfile -t missing < <(missing_of "${wanted[@]}")
     if ((${#missing[@]})); then
         tail -n 5 "$log" >&2
         rm -f "$log"

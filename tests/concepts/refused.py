@@ -44,6 +44,8 @@ def main(folder, include, eigen, *names):
     for path in programs:
         for compiler, options in COMPILERS.items():
             if not shutil.which(compiler):
+                if path == programs[0]:
+                    print(f"skipped, {compiler} not found", flush=True)
                 continue
             wrong = complaint(compiler, options, path, includes)
             failed |= bool(wrong)

@@ -36,6 +36,17 @@ PLOT = """const svg = document.querySelectorAll(arguments[0])[arguments[1]].quer
         confidence: svg.querySelectorAll(".confidence").length, triangle: !!triangle,
         paths: [...svg.querySelectorAll(".series")].map(g => [g.classList.contains("exact"), g.querySelector("path") && g.querySelector("path").getAttribute("d")])}"""
 
+# The page's own fonts, and what no font goes beyond: wider than any monospaced one, narrower than any condensed one.
+FONTS = {"own": "",
+         "wide": "* { font-family: monospace !important; letter-spacing: .15em !important; word-spacing: .3em !important; }",
+         "narrow": "* { letter-spacing: -.12em !important; }"}
+# Widths of page and window, and the elements that reach beyond the window though no scroller holds them.
+BEYOND = """const root = document.documentElement, held = node => { for (node = node.parentElement; node; node = node.parentElement) {
+        if (getComputedStyle(node).overflowX !== "visible" && node !== root && node !== document.body) return true; } return false; };
+    const beyond = [...document.body.querySelectorAll("*")].filter(node => node.getBoundingClientRect().right > root.clientWidth + 0.5 && !held(node));
+    return [root.scrollWidth, root.clientWidth, "beyond the window: " + beyond.slice(0, 8).map(node =>
+        `${node.tagName} ${node.getAttribute("class") || node.id} to ${Math.round(node.getBoundingClientRect().right)}`).join(", ")]"""
+
 OPTIONS = argparse.Namespace(report=None, html=None, screenshots=None)
 
 
@@ -549,16 +560,25 @@ class Page(PageCase):
         ids = [case["id"] for case in self.report["cases"]]
         return ["", *(f"#{one}" for one in ids[:8] + ids[-2:]), *(["#faults"] if self.report.get("mutants") else [])]
 
-    def test_no_horizontal_scroll_at_any_width(self):
-        for width in (400, 760, 880, 1280):
-            self.browser.resize(width, 900)
-            for address in self.addresses():
-                self.go(address)
-                self.browser.run("return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
-                page, window = self.browser.run("const r = document.documentElement; return [r.scrollWidth, r.clientWidth]")
-                self.assertLessEqual(page, window, f"{address} at {width} px")
-                if width == 400 and address in ("", "#" + self.report["cases"][0]["id"]):
-                    self.shot("narrow" + address.replace("#", "-"), whole=True)
+    def test_no_horizontal_scroll_at_any_width_and_in_any_font(self):
+        """Which fonts are installed must not matter, so the page is also set far wider and narrower than any makes it."""
+        first = "#" + self.report["cases"][0]["id"]
+        for font, css in FONTS.items():
+            remove = self.browser.style(css)
+            self.browser.open("about:blank")
+            for width in (320, 400, 760, 861, 880, 1280):
+                self.browser.resize(width, 900)
+                for address in self.addresses():
+                    with self.subTest(font=font, width=width, address=address):
+                        self.go(address)
+                        self.browser.run("return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
+                        if css:
+                            self.assertIn(self.browser.run("return getComputedStyle(document.body).letterSpacing[0]"), "0123456789-")
+                        page, window, beyond = self.browser.run(BEYOND)
+                        self.assertLessEqual(page, window, beyond)
+                        if width in (400, 880) and address in ("", first):
+                            self.shot(f"{font}-{width}{address.replace('#', '-')}", whole=True)
+            remove()
 
     def contrasts(self, selectors):
         """Contrast by WCAG of the text of each selector with what is behind it."""
