@@ -30,12 +30,17 @@ talus::AnySolver<Dim, Law<Dim>> named_solver(const std::string& name,
 
 namespace {
 
+template <int Dim, class SolverType, class HooksType>
+struct WorldTypes : talus::SimulationTypes<Dim> {
+    using Law = validation::Law<Dim>;
+    using Shape = ShapeType<Dim>;
+    using Solver = SolverType;
+    using Hooks = HooksType;
+};
+
 template <int Dim, class Solver, class Hooks>
 class EngineOf : public Engine<Dim> {
   public:
-    using SolverType = Solver;
-    using HooksType = Hooks;
-
     EngineOf(System<Dim> system, const talus::SimulationParams& params, Solver solver, Hooks hooks)
         : sim_(std::move(system), params, std::move(solver)) {
         sim_.hooks() = hooks;
@@ -51,13 +56,7 @@ class EngineOf : public Engine<Dim> {
     }
 
   private:
-    struct Types : talus::SimulationTypes<Dim> {
-        using Law = validation::Law<Dim>;
-        using Shape = ShapeType<Dim>;
-        using Solver = EngineOf::SolverType;
-        using Hooks = EngineOf::HooksType;
-    };
-    talus::Simulation<Dim, Types> sim_;
+    talus::Simulation<Dim, WorldTypes<Dim, Solver, Hooks>> sim_;
 };
 
 template <int Dim>
