@@ -52,6 +52,7 @@ missing_of() {
 
 # ensure_packages GROUP...: installs what is missing; does nothing, and needs no network, when nothing is.
 ensure_packages() {
+    (($#)) || die "ensure_packages needs a group of packages, or 'all'."
     local wanted
     wanted=$(packages_of "$@") || die "in ensure_packages $*"
     mapfile -t wanted <<<"$wanted"
