@@ -51,7 +51,7 @@ OUTPUT = re.compile(
     r"|\bstd::(?:cout|cerr|clog|[io]?fstream|[io]?stringstream|[io]stream|filesystem)\b")
 REFERENCE = re.compile(r"\[([A-Z][A-Za-z]+\d{4}[a-z]?)(?:,[^\]]*)?\]")
 UNFINISHED = re.compile(r"\b(?:TODO|FIXME|XXX|HACK)\b")
-# One word per thing: the banned synonym and the word of the house.
+# One word per thing: the banned synonym and the word to use.
 VOCABULARY = {
     r"\bdt\b|\btime_?step\b|\bstep_size\b": "h",
     r"\bpenetration_depth\b": "gap",
@@ -135,7 +135,7 @@ class Tree:
             seen = FORMATTING.sub("", code) if name in MAY_FORMAT else code
             self.report_all(path, seen, OUTPUT, "stream, file or print outside io")
         for synonym, word in VOCABULARY.items():
-            self.report_all(path, code, re.compile(synonym), f"the word of the house is {word}")
+            self.report_all(path, code, re.compile(synonym), f"the word to use is {word}")
         for match in REFERENCE.finditer(text):
             if match.group(1) not in self.keys:
                 self.report(path, line_of(text, match.start()), f"{match.group(1)} is not in references.bib")

@@ -47,7 +47,7 @@ void run(Trial<Dim>& trial) {
         // ball begins half a step before one.
         for (std::size_t i = 0; i + 1 < n; ++i)
             trial.rounding(name + ": where ball " + std::to_string(i + 1) + " stops [m]",
-                           (world.bodies().position[i] - start[i]).eval(),
+                           world.bodies().position[i] - start[i],
                            V<Dim>(h * v * closing(cradle.gap, i == 0 ? 0.5 : 1.0) * slanted<Dim>()),
                            1.0, h);
         trial.rounding(name + ": momentum", momentum, v, h);
