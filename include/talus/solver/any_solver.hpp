@@ -32,8 +32,10 @@ concept FormsSolver = ContactSolver<S, Dim, Law> && std::copyable<S> &&
 template <int Dim, ContactLaw<Dim> Law>
 class AnySolver {
   public:
-    template <FormsSolver<Dim, Law> Solver>
-    requires(!std::same_as<Solver, AnySolver>) explicit AnySolver(Solver solver)
+    // Asked in this order: the second question, of an AnySolver, would come back to the first.
+    template <class Solver>
+    requires(!std::same_as<Solver, AnySolver>) &&
+        FormsSolver<Solver, Dim, Law> explicit AnySolver(Solver solver)
         : self_(std::make_unique<Model<Solver>>(std::move(solver))) {}
     AnySolver(const AnySolver& other) : self_(other.self_->copy()) {}
     AnySolver(AnySolver&&) noexcept = default;  ///< what was moved from may only be assigned to
