@@ -68,14 +68,15 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_name_solves_a_small_problem, D, dimensions) 
     constexpr int dim = D::value;
     const auto names = talus::solver_names<dim, Law<dim>>();
     BOOST_TEST(names.size() == 9u);
-    for (const auto& [name, description] : names) {
-        BOOST_TEST_INFO_SCOPE(name);
-        BOOST_TEST(!description.empty());
-        BOOST_TEST(std::count_if(names.begin(), names.end(),
-                                 [&](const auto& other) { return other.name == name; }) == 1);
-        solves_in_all_forms(
-            talus::make_solver<dim, Law<dim>>(name, {.tolerance = 1e-11, .max_iterations = 1000}),
-            two_masses<dim>(Law<dim>{.mu = 0.5}));
+    for (const talus::SolverName& solver : names) {
+        BOOST_TEST_INFO_SCOPE(solver.name);
+        BOOST_TEST(!solver.description.empty());
+        BOOST_TEST(std::count_if(names.begin(), names.end(), [&](const auto& other) {
+                       return other.name == solver.name;
+                   }) == 1);
+        solves_in_all_forms(talus::make_solver<dim, Law<dim>>(
+                                solver.name, {.tolerance = 1e-11, .max_iterations = 1000}),
+                            two_masses<dim>(Law<dim>{.mu = 0.5}));
     }
 }
 
