@@ -141,5 +141,8 @@ AnySolver<Dim, Law> make_solver(std::string_view name, SolverSettings settings =
 
 }  // namespace talus
 
+// The library itself makes them where they are defined, in solver_registry.hpp: not before.
+#ifdef TALUS_COMPILED
 TALUS_IN_PLANE(struct talus::SolverRegistry<2, talus::Coulomb<2>>)
 TALUS_IN_SPACE(struct talus::SolverRegistry<3, talus::Coulomb<3>>)
+#endif

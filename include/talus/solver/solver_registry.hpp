@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/law/cone_of.hpp>
 #include <talus/solver/any_solver.hpp>
 #include <talus/solver/automatic.hpp>
@@ -113,3 +114,6 @@ AnySolver<Dim, Law> SolverRegistry<Dim, Law>::make(std::string_view name, Solver
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(struct talus::SolverRegistry<2, talus::Coulomb<2>>)
+TALUS_IN_SPACE(struct talus::SolverRegistry<3, talus::Coulomb<3>>)
