@@ -139,6 +139,8 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
         return {at(1) * o.at(2) - at(2) * o.at(1), at(2) * o.at(0) - at(0) * o.at(2),
                 at(0) * o.at(1) - at(1) * o.at(0)};
     }
+    // Const, so that m.transpose() = x, which would be lost, does not compile.
+    // NOLINTNEXTLINE(readability-const-return-type)
     const Transposed transpose() const {
         Transposed r;
         for (int i = 0; i < Rows; ++i)
