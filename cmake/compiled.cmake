@@ -2,9 +2,6 @@
 # macro TALUS_COMPILED says that a library holds these instances (core/instantiate.hpp). Built when
 # something links it; an installation has it if TALUS_BUILD_COMPILED is ON.
 option(TALUS_BUILD_COMPILED "Build and install talus::compiled, the common templates compiled once" OFF)
-set(TALUS_COMPILED_FLAGS "" CACHE STRING
-  "Options for talus::compiled alone: where the rest is compiled for debugging, the solvers can be quick still")
-
 set(talus_compiled_sources)
 foreach(dimension IN ITEMS plane space)
   string(TOUPPER ${dimension} macro)
@@ -24,8 +21,6 @@ add_library(talus_compiled STATIC ${talus_compiled_sources})
 add_library(talus::compiled ALIAS talus_compiled)
 target_link_libraries(talus_compiled PUBLIC talus)
 target_compile_definitions(talus_compiled INTERFACE TALUS_COMPILED)
-separate_arguments(talus_compiled_flags NATIVE_COMMAND "${TALUS_COMPILED_FLAGS}")
-target_compile_options(talus_compiled PRIVATE ${talus_compiled_flags})
 set_target_properties(talus_compiled PROPERTIES EXPORT_NAME compiled POSITION_INDEPENDENT_CODE ON)
 if(NOT TALUS_BUILD_COMPILED)
   set_target_properties(talus_compiled PROPERTIES EXCLUDE_FROM_ALL ON)
