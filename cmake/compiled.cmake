@@ -2,6 +2,7 @@
 # macro TALUS_COMPILED says that a library holds these instances (core/instantiate.hpp). Built when
 # something links it; an installation has it if TALUS_BUILD_COMPILED is ON.
 option(TALUS_BUILD_COMPILED "Build and install talus::compiled, the common templates compiled once" OFF)
+
 set(talus_compiled_sources)
 foreach(dimension IN ITEMS plane space)
   string(TOUPPER ${dimension} macro)

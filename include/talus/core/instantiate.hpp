@@ -6,8 +6,8 @@
 /// Names a template instance that the library talus::compiled holds, below the template and outside
 /// of all namespaces: TALUS_IN_PLANE for one of the plane, TALUS_IN_SPACE for one of space. Without
 /// that library both say nothing, and the compiler makes what a file uses. With it (its CMake
-/// target defines TALUS_COMPILED) they keep the compiler from making it again. In the two sources
-/// of the library itself (which define TALUS_COMPILE_PLANE or TALUS_COMPILE_SPACE) they make it.
+/// target defines TALUS_COMPILED) they keep the compiler from making it again. In the sources of
+/// the library itself (which define TALUS_COMPILE_PLANE or TALUS_COMPILE_SPACE) they make it.
 #if defined(TALUS_COMPILE_PLANE)
 #define TALUS_IN_PLANE(...) template __VA_ARGS__;
 #define TALUS_IN_SPACE(...)
@@ -26,7 +26,8 @@ namespace talus::detail {
 
 /// Eigen aligns its arrays for the vector instructions that it may use, so a program compiled for
 /// others than the library has other layouts. The library defines `tag` for its own alignment
-/// alone: the linker then names the one that is missing.
+/// alone: the linker then names the one that is missing. (`used`, as no code asks for it: an inline
+/// variable that nothing uses is left out, and the question with it.)
 template <int Bytes>
 struct CompiledWithAlignment {
     static const int tag;
@@ -36,7 +37,7 @@ template <int Bytes>
 const int CompiledWithAlignment<Bytes>::tag = Bytes;
 template struct CompiledWithAlignment<EIGEN_MAX_STATIC_ALIGN_BYTES>;
 #elif defined(TALUS_COMPILED)
-inline const int* const same_alignment_as_compiled =
+[[gnu::used]] inline const int* const same_alignment_as_compiled =
     &CompiledWithAlignment<EIGEN_MAX_STATIC_ALIGN_BYTES>::tag;
 #endif
 

@@ -51,8 +51,8 @@ constexpr auto sum_over(const F& f) {
 
 /// An Eigen matrix of a few components whose own arithmetic is eager: a + b is a matrix, not an
 /// expression. Eigen gives every expression a type with some two hundred members; for three
-/// components they save nothing, and they were two thirds of the time that a program took to
-/// compile. A value also outlives its operands, so `auto c = a + b;` is safe.
+/// components they save nothing, and they were most of what a compiler instantiated for a program
+/// of talus. A value also outlives its operands, so `auto c = a + b;` is safe.
 ///
 /// It remains an Eigen matrix: it takes and gives Eigen's expressions, and what is not declared
 /// here (blocks, decompositions, arrays, comma initialisation) is Eigen's own, lazy as ever. The
@@ -62,8 +62,6 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
   public:
     using Base = Eigen::Matrix<Real, Rows, Cols>;
     using Transposed = SmallMatrix<Cols, Rows, Real>;
-    static constexpr int size_ = Rows * Cols;
-
     using Base::Base;
     SmallMatrix() = default;
     SmallMatrix(const Base& other) : Base(other) {}
@@ -73,6 +71,8 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
         Base::operator=(other);
         return *this;
     }
+
+    SmallMatrix eval() const { return *this; }
 
     static SmallMatrix Zero() { return Constant(Real(0)); }
     static SmallMatrix Ones() { return Constant(Real(1)); }
@@ -116,14 +116,14 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
 
     using Base::dot;
     Real dot(const SmallMatrix& o) const requires(Cols == 1) {
-        return detail::sum_over<size_>([&](int i) { return at(i) * o.at(i); });
+        return detail::sum_over<Rows * Cols>([&](int i) { return at(i) * o.at(i); });
     }
     Real squaredNorm() const {
-        return detail::sum_over<size_>([&](int i) { return at(i) * at(i); });
+        return detail::sum_over<Rows * Cols>([&](int i) { return at(i) * at(i); });
     }
     Real norm() const { return std::sqrt(squaredNorm()); }
     Real sum() const {
-        return detail::sum_over<size_>([&](int i) { return at(i); });
+        return detail::sum_over<Rows * Cols>([&](int i) { return at(i); });
     }
     Real trace() const requires(Rows == Cols) {
         return detail::sum_over<Rows>([&](int i) { return at(i * (Rows + 1)); });
@@ -187,12 +187,12 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
     using Base::minCoeff;
     Real minCoeff() const {
         Real least = at(0);
-        for (int i = 1; i < size_; ++i) least = at(i) < least ? at(i) : least;
+        for (int i = 1; i < Rows * Cols; ++i) least = at(i) < least ? at(i) : least;
         return least;
     }
     Real maxCoeff() const {
         Real most = at(0);
-        for (int i = 1; i < size_; ++i) most = most < at(i) ? at(i) : most;
+        for (int i = 1; i < Rows * Cols; ++i) most = most < at(i) ? at(i) : most;
         return most;
     }
     /// Whether all components are numbers, and finite.
@@ -220,7 +220,7 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
 
     template <class F>
     static constexpr void each(const F& f) {
-        detail::for_each_index<size_>(f);
+        detail::for_each_index<Rows * Cols>(f);
     }
     Real& at(int i) { return this->data()[i]; }
     const Real& at(int i) const { return this->data()[i]; }
