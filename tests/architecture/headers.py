@@ -6,7 +6,6 @@ includes, and only those, find it precompiled: what it declares they may use any
 Eigen and does not lead to it is compiled without, and fails.
 """
 import concurrent.futures
-import os
 import pathlib
 import re
 import subprocess

@@ -157,6 +157,27 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(bodies_squeezed_by_obstacles_have_no_solution, D, 
     BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::converged));
 }
 
+/// Nothing of a solve stays behind in the solver: no verdict, no rate, no factor.
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_solver_used_before_answers_like_a_new_one, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(85);
+    talus::Automatic<dim, Law<dim>> used({.tolerance = 1e-12});
+    for (int k = 0; k < 6; ++k) {
+        BOOST_TEST_INFO_SCOPE("problem " << k);
+        auto squeezed = squeezed_ball<dim>();
+        std::vector<talus::Vector<dim>> r(2, talus::Vector<dim>::Zero());
+        BOOST_TEST((used.solve(squeezed, r).status == talus::SolveStatus::no_solution));
+        auto p = RandomProblem<dim, Law<dim>>{.bodies = 6, .contacts = 20, .arm = 0.1}.make(random,
+                                                                                            {0.5});
+        move_bodies_only<dim>(p, random);
+        std::vector<talus::Vector<dim>> by_used(20, talus::Vector<dim>::Zero()), by_new = by_used;
+        talus::Automatic<dim, Law<dim>> fresh({.tolerance = 1e-12});
+        const auto status = fresh.solve(p, by_new).status;
+        BOOST_TEST((used.solve(p, by_used).status == status));
+        for (std::size_t i = 0; i < by_new.size(); ++i) BOOST_TEST((by_used[i] == by_new[i]));
+    }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(contacts_between_obstacles_cannot_be_pushed_apart, D, dimensions) {
     constexpr int dim = D::value;
     auto p = stack_of_particles<dim>({1.0}, Law<dim>{.mu = 0.5});
