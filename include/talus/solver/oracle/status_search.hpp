@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
 #include <talus/core/types.hpp>
 #include <talus/solver/oracle/slip_angle.hpp>
 
@@ -22,31 +23,6 @@ namespace talus {
 /// What a contact does in a solution. Without friction a closed contact slides.
 enum class ContactStatus { open, stuck, sliding };
 
-namespace detail {
-
-/// x with a x = b; the one of least norm, and false, where `a` is singular to rounding.
-inline bool solve_dense(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-    x.resize(a.rows());
-    if (a.rows() == 0) return true;
-    constexpr double rank = 1e-11;
-    Eigen::FullPivLU<Eigen::MatrixXd> lu(a);
-    lu.setThreshold(rank);
-    if (!lu.isInvertible()) {
-        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least(a);
-        least.setThreshold(rank);
-        x = least.solve(b);
-        return false;
-    }
-    x = lu.solve(b);
-    x += lu.solve(Eigen::VectorXd(b - a * x));
-    return true;
-}
-inline Eigen::MatrixXd dense_solution(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-    return a.fullPivLu().solve(b);
-}
-
-}  // namespace detail
-
 /// The search of Enumeration: which impulses r in friction cones obey u = W r + q, by trying every
 /// combination of statuses. Dense, for a few contacts.
 template <int Dim>
@@ -61,19 +37,7 @@ class StatusSearch {
 
     /// W, q and the friction coefficients; limits as in EnumerationParams.
     void run(Eigen::MatrixXd w, Eigen::VectorXd q, std::vector<double> mu, int max_combinations,
-             int starts) {
-        w_ = std::move(w);
-        q_ = std::move(q);
-        mu_ = std::move(mu);
-        max_combinations_ = max_combinations;
-        starts_ = starts;
-        found_.clear();
-        complete_ = true;
-        combinations_ = 0;
-        status_.assign(mu_.size(), ContactStatus::open);
-        angle_.assign(mu_.size(), 0.0);
-        try_statuses(0);
-    }
+             int starts);
     const std::vector<Found>& found() const { return found_; }
     /// Whether these are all there are, beyond doubt but for rounding.
     bool complete() const { return complete_; }
@@ -87,6 +51,8 @@ class StatusSearch {
 
     static constexpr double rounding = 1e-9;  ///< of what inequalities may be missed by, relatively
 
+    /// x with a x = b; the one of least norm, and false, where `a` is singular to rounding.
+    static bool solve_dense(const Mat& a, const Vec& b, Vec& x);
     void try_statuses(std::size_t contact);
     void try_directions(std::size_t slider);
     void assemble();
@@ -124,6 +90,45 @@ class StatusSearch {
     Vec x_, r_, u_;
     bool singular_ = false;
 };
+
+// Members, and not inline: dense factorisations take seconds to compile, which whoever includes
+// this and does not search is spared.
+
+template <int Dim>
+requires SpaceDimension<Dim>
+void StatusSearch<Dim>::run(Mat w, Vec q, std::vector<double> mu, int max_combinations,
+                            int starts) {
+    w_ = std::move(w);
+    q_ = std::move(q);
+    mu_ = std::move(mu);
+    max_combinations_ = max_combinations;
+    starts_ = starts;
+    found_.clear();
+    complete_ = true;
+    combinations_ = 0;
+    status_.assign(mu_.size(), ContactStatus::open);
+    angle_.assign(mu_.size(), 0.0);
+    try_statuses(0);
+}
+
+template <int Dim>
+requires SpaceDimension<Dim>
+bool StatusSearch<Dim>::solve_dense(const Mat& a, const Vec& b, Vec& x) {
+    x.resize(a.rows());
+    if (a.rows() == 0) return true;
+    constexpr double rank = 1e-11;
+    Eigen::FullPivLU<Mat> lu(a);
+    lu.setThreshold(rank);
+    if (!lu.isInvertible()) {
+        Eigen::CompleteOrthogonalDecomposition<Mat> least(a);
+        least.setThreshold(rank);
+        x = least.solve(b);
+        return false;
+    }
+    x = lu.solve(b);
+    x += lu.solve(Vec(b - a * x));
+    return true;
+}
 
 template <int Dim>
 requires SpaceDimension<Dim>
@@ -205,7 +210,7 @@ bool StatusSearch<Dim>::solve_linear() {
     a_ = rows_ * w_ * rays_;
     const Vec b = -(rows_ * q_);
     // Singular systems are those of hyperstatic statuses: of their solutions, one is tried.
-    singular_ = !detail::solve_dense(a_, b, x_);
+    singular_ = !solve_dense(a_, b, x_);
     r_ = rays_ * x_;
     u_ = w_ * r_ + q_;
     return !singular_ || (a_ * x_ - b).norm() <= rounding * q_.norm();
@@ -235,7 +240,7 @@ bool StatusSearch<Dim>::follow_directions() {
         if (f.norm() <= 1e-14 * speed) return true;
         if (singular_) return false;
         // u_n of sliding and u of stuck contacts stay zero: the other impulses follow.
-        const Mat du = change - w_ * rays_ * detail::dense_solution(a_, rows_ * change);
+        const Mat du = change - w_ * rays_ * a_.fullPivLu().solve(rows_ * change);
         Mat jacobian(count, count);
         for (Index s = 0; s < count; ++s) {
             const std::size_t c = sliders_[static_cast<std::size_t>(s)];
@@ -246,7 +251,7 @@ bool StatusSearch<Dim>::follow_directions() {
             // The direction across turns as well.
             jacobian(s, s) -= u_.template segment<Dim - 1>(i + 1).dot(Slip::direction(angle_[c]));
         }
-        Vec turn = -detail::dense_solution(jacobian, f);
+        Vec turn = -jacobian.fullPivLu().solve(f);
         if (!turn.allFinite()) return false;
         // Beyond that the trigonometric functions are not near to linear.
         constexpr double longest = 0.5;  // [rad]
@@ -340,3 +345,6 @@ void StatusSearch<Dim>::accept() {
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::StatusSearch<2>)
+TALUS_IN_SPACE(class talus::StatusSearch<3>)
