@@ -3,19 +3,25 @@
 # something links it; an installation has it if TALUS_BUILD_COMPILED is ON.
 option(TALUS_BUILD_COMPILED "Build and install talus::compiled, the common templates compiled once" OFF)
 
+# talus_compiled_source(HEADER PART): a source with what a header has for plane, space or functions.
 set(talus_compiled_sources)
-foreach(dimension IN ITEMS plane space)
-  string(TOUPPER ${dimension} macro)
-  foreach(part IN ITEMS stepping/simulation solver/solver_registry)
-    get_filename_component(name ${part} NAME)
-    set(source ${PROJECT_BINARY_DIR}/compiled/${name}_${dimension}.cpp)
-    file(CONFIGURE OUTPUT ${source} CONTENT
+function(talus_compiled_source header part)
+  get_filename_component(name ${header} NAME)
+  set(source ${PROJECT_BINARY_DIR}/compiled/${name}_${part}.cpp)
+  string(TOUPPER ${part} macro)
+  file(CONFIGURE OUTPUT ${source} CONTENT
 "// SPDX-License-Identifier: BSL-1.0
 #define TALUS_COMPILE_${macro}
-#include <talus/${part}.hpp>
+#include <talus/${header}.hpp>
 ")
-    list(APPEND talus_compiled_sources ${source})
-  endforeach()
+  set(talus_compiled_sources ${talus_compiled_sources} ${source} PARENT_SCOPE)
+endfunction()
+# The longest first.
+foreach(part IN ITEMS space plane functions)
+  talus_compiled_source(solver/solver_registry ${part})
+endforeach()
+foreach(part IN ITEMS space plane)
+  talus_compiled_source(stepping/simulation ${part})
 endforeach()
 
 add_library(talus_compiled STATIC ${talus_compiled_sources})

@@ -6,6 +6,8 @@
 #include "common/dimensions.hpp"
 #include "common/random_problem.hpp"
 
+#include <Eigen/Cholesky>
+
 namespace {
 
 /// B, written out.

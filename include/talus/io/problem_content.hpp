@@ -4,7 +4,6 @@
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/matrix_problem.hpp>
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include <cstddef>
@@ -77,10 +76,7 @@ ProblemSolution<Dim> solution_of(const GlobalProblem<Dim, Law>& p, std::span<con
     Eigen::VectorXd impulses(size);
     for (std::size_t i = 0; i < r.size(); ++i)
         impulses.template segment<Dim>(static_cast<Eigen::Index>(Dim * i)) = r[i];
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(p.mass);
-    if (factor.info() != Eigen::Success)
-        throw input_error("M is singular, but must be symmetric and positive definite");
-    s.velocity = factor.solve(p.contact_map * impulses + p.force);
+    s.velocity = detail::solved_mass(p.mass, p.contact_map * impulses + p.force);
     const Eigen::VectorXd u = p.contact_map.transpose() * s.velocity;
     for (std::size_t i = 0; i < r.size(); ++i)
         s.relative_velocity[i] += u.template segment<Dim>(static_cast<Eigen::Index>(Dim * i));

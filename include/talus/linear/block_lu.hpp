@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/linear/frontal_plan.hpp>
 #include <talus/linear/serial_product.hpp>
 
@@ -77,9 +78,11 @@ class BlockLu {
     mutable std::vector<double> gathered_;
 };
 
+#if TALUS_BODIES
+
 /// LU with row exchanges of the upper square of `a` (as many rows as columns count), in place;
 /// recursive, so that nearly all work is in matrix products.
-inline bool BlockLu::eliminate(Eigen::Ref<Dense> a, int* exchange) {
+TALUS_FUNCTION bool BlockLu::eliminate(Eigen::Ref<Dense> a, int* exchange) {
     // a = (a11 a12; a21 a22): the left half is factorised with all rows below it, its exchanges
     // carried over to the right half, and what is left of that factorised in turn.
     const Eigen::Index n = a.cols();
@@ -115,7 +118,7 @@ inline bool BlockLu::eliminate(Eigen::Ref<Dense> a, int* exchange) {
     return true;
 }
 
-inline bool BlockLu::factorize() {
+TALUS_FUNCTION bool BlockLu::factorize() {
     TALUS_CHECK(values_.size() == plan_.value_count(), "set_zero comes first");
     // Nothing is allocated after the first time: the plan knows all sizes.
     factor_.resize(plan_.factor_size());
@@ -186,7 +189,7 @@ inline bool BlockLu::factorize() {
     return true;
 }
 
-inline void BlockLu::solve(Eigen::Ref<Eigen::VectorXd> x) const {
+TALUS_FUNCTION void BlockLu::solve(Eigen::Ref<Eigen::VectorXd> x) const {
     TALUS_CHECK(x.size() == size(), "one number per row");
     // In the order of elimination, and room for the rest of a front.
     gathered_.resize(node(size()) + work_.size());
@@ -233,5 +236,7 @@ inline void BlockLu::solve(Eigen::Ref<Eigen::VectorXd> x) const {
         x.segment(plan_.given_row(k), plan_.width(k)) =
             y.segment(plan_.ordered_row(k), plan_.width(k));
 }
+
+#endif
 
 }  // namespace talus

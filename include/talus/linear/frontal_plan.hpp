@@ -2,17 +2,21 @@
 #pragma once
 
 #include <talus/core/check.hpp>
-#include <talus/linear/elimination_tree.hpp>
-#include <talus/linear/nested_dissection.hpp>
-
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
+#include <talus/core/instantiate.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
+
+#if TALUS_BODIES
+#include <talus/linear/elimination_tree.hpp>
+#include <talus/linear/nested_dissection.hpp>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#endif
 
 namespace talus {
 
@@ -121,8 +125,11 @@ class FrontalPlan {
     std::size_t largest_front_ = 0, deepest_stack_ = 0;
 };
 
-inline void FrontalPlan::analyze(std::span<const int> node_size,
-                                 std::span<const std::pair<int, int>> edges, Ordering ordering) {
+#if TALUS_BODIES
+
+TALUS_FUNCTION void FrontalPlan::analyze(std::span<const int> node_size,
+                                         std::span<const std::pair<int, int>> edges,
+                                         Ordering ordering) {
     // The pattern, symmetric and with its diagonal, sorted by rows.
     const int n = static_cast<int>(node_size.size());
     offset_.assign(1, 0);
@@ -150,7 +157,7 @@ inline void FrontalPlan::analyze(std::span<const int> node_size,
 }
 
 /// Minimum degree on the graph of nodes.
-inline std::vector<int> FrontalPlan::minimum_degree_order(int n) const {
+TALUS_FUNCTION std::vector<int> FrontalPlan::minimum_degree_order(int n) const {
     // On nodes, not rows: a node's rows have the same structure, and the graph is 2 to 6 times
     // smaller. Sizes are nearly equal, so that leaving them out costs little.
     Eigen::SparseMatrix<double> pattern(n, n);
@@ -166,7 +173,7 @@ inline std::vector<int> FrontalPlan::minimum_degree_order(int n) const {
 
 /// The order asked for, then a postorder of the elimination tree, so that the children of a front
 /// come just before it.
-inline void FrontalPlan::order_nodes(std::span<const int> node_size, Ordering ordering) {
+TALUS_FUNCTION void FrontalPlan::order_nodes(std::span<const int> node_size, Ordering ordering) {
     const int n = static_cast<int>(node_size.size());
     std::vector<int> order;
     EliminationTree tree;
@@ -195,7 +202,7 @@ inline void FrontalPlan::order_nodes(std::span<const int> node_size, Ordering or
 }
 
 /// Positions below the diagonal in each column of the factor, ascending.
-inline std::vector<std::vector<int>> FrontalPlan::column_structures(
+TALUS_FUNCTION std::vector<std::vector<int>> FrontalPlan::column_structures(
     int n, std::vector<int>& parent) const {
     // The structure of a column is that of the matrix and of its children in the tree, without
     // the column itself [Liu1990]: the union is taken with a mark per position.
@@ -224,8 +231,8 @@ inline std::vector<std::vector<int>> FrontalPlan::column_structures(
 }
 
 /// Joins columns of (nearly) equal structure into fronts.
-inline void FrontalPlan::make_fronts(const std::vector<std::vector<int>>& below,
-                                     const std::vector<int>& parent) {
+TALUS_FUNCTION void FrontalPlan::make_fronts(const std::vector<std::vector<int>>& below,
+                                             const std::vector<int>& parent) {
     struct Group {
         int first, last;
         double zeros;
@@ -288,7 +295,7 @@ inline void FrontalPlan::make_fronts(const std::vector<std::vector<int>>& below,
 }
 
 /// Fixes where each block lies in memory and in its front, and the sizes of the work arrays.
-inline void FrontalPlan::place_blocks() {
+TALUS_FUNCTION void FrontalPlan::place_blocks() {
     std::ptrdiff_t values = 0;
     // Slots sorted by front, by counting; and, front by front, where each lies in it.
     std::vector<int> local(position_.size(), 0);
@@ -343,5 +350,7 @@ inline void FrontalPlan::place_blocks() {
         first += width(static_cast<int>(k));
     }
 }
+
+#endif
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/instantiate.hpp>
 
 #include <Eigen/Core>
 
@@ -10,8 +11,15 @@ namespace talus {
 /// c -= a b, in the thread that calls. Where a program is compiled with OpenMP, Eigen itself shares
 /// large products among threads and cuts them up by their number, so that the last bits depend on
 /// it; this takes the same kernel past that. None of the three may overlap.
-inline void subtract_product(Eigen::Ref<Eigen::MatrixXd> c, Eigen::Ref<const Eigen::MatrixXd> a,
-                             Eigen::Ref<const Eigen::MatrixXd> b) {
+TALUS_FUNCTION void subtract_product(Eigen::Ref<Eigen::MatrixXd> c,
+                                     Eigen::Ref<const Eigen::MatrixXd> a,
+                                     Eigen::Ref<const Eigen::MatrixXd> b);
+
+#if TALUS_BODIES
+
+TALUS_FUNCTION void subtract_product(Eigen::Ref<Eigen::MatrixXd> c,
+                                     Eigen::Ref<const Eigen::MatrixXd> a,
+                                     Eigen::Ref<const Eigen::MatrixXd> b) {
     TALUS_CHECK(a.rows() == c.rows() && a.cols() == b.rows() && b.cols() == c.cols(),
                 "sizes must fit");
     using Index = Eigen::Index;
@@ -34,5 +42,7 @@ inline void subtract_product(Eigen::Ref<Eigen::MatrixXd> c, Eigen::Ref<const Eig
     Kernel::run(rows, columns, depth, a.data(), a.outerStride(), b.data(), b.outerStride(),
                 c.data(), 1, c.outerStride(), -1.0, blocking, nullptr);
 }
+
+#endif
 
 }  // namespace talus

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
 #include <talus/core/symmetric_eigen.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/problem/matrix_problem.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,27 @@
 #include <utility>
 #include <vector>
 
+#if TALUS_BODIES
+#include <Eigen/Cholesky>
+#endif
+
 namespace talus {
+
+namespace detail {
+
+/// Turns a symmetric matrix into its lower Cholesky factor; what is above the diagonal stays. False
+/// unless it is positive definite.
+TALUS_FUNCTION bool turn_into_cholesky_factor(Eigen::MatrixXd& m);
+
+#if TALUS_BODIES
+
+TALUS_FUNCTION bool turn_into_cholesky_factor(Eigen::MatrixXd& m) {
+    return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>(m).info() == Eigen::Success;
+}
+
+#endif
+
+}  // namespace detail
 
 /// W = B^T B with B = C^T H, M^-1 = C C^T: each contact's block of B, body by body. In these
 /// coordinates every body has unit mass, and one that cannot move has no rows. What factorising
@@ -206,7 +227,7 @@ bool BodyMap<Dim>::assign(const Eigen::SparseMatrix<double>& mass,
         members.push_back(static_cast<int>(i));
         if (members.size() > small) return false;
     }
-    std::vector<Eigen::LLT<Eigen::MatrixXd>> factors;
+    std::vector<Eigen::MatrixXd> factors;
     for (const auto& members : rows) {
         const auto size = static_cast<Eigen::Index>(members.size());
         Eigen::MatrixXd m(size, size);
@@ -214,11 +235,11 @@ bool BodyMap<Dim>::assign(const Eigen::SparseMatrix<double>& mass,
             for (Eigen::Index j = 0; j < size; ++j)
                 m(i, j) = mass.coeff(members[static_cast<std::size_t>(i)],
                                      members[static_cast<std::size_t>(j)]);
-        factors.emplace_back(m);
-        if (factors.back().info() != Eigen::Success) {
+        if (!detail::turn_into_cholesky_factor(m)) {
             clear();
             return false;
         }
+        factors.push_back(std::move(m));
         size_.push_back(static_cast<int>(size));
         offset_.push_back(offset_.back() + static_cast<int>(size));
     }
@@ -239,7 +260,9 @@ bool BodyMap<Dim>::assign(const Eigen::SparseMatrix<double>& mass,
                 at->second(place[row], d) = e.value();
             }
         for (const auto& [body, h] : found)
-            add_entry(body, factors[static_cast<std::size_t>(body)].matrixL().solve(h));
+            add_entry(body, factors[static_cast<std::size_t>(body)]
+                                .template triangularView<Eigen::Lower>()
+                                .solve(h));
         entry_begin_.push_back(entry_.size());
     }
     return true;
@@ -280,3 +303,6 @@ class DelassusGlobal {
 static_assert(SweepableDelassus<DelassusGlobal<2>, 2> && SweepableDelassus<DelassusGlobal<3>, 3>);
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::BodyMap<2>)
+TALUS_IN_SPACE(class talus::BodyMap<3>)

@@ -3,6 +3,7 @@
 
 #include <talus/core/check.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
 
@@ -103,61 +104,8 @@ class DelassusSparse {
     }
 
     template <int Dim>
-    void assemble(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
-        std::vector<std::vector<std::size_t>> contacts_of(inverse_mass.body_count());
-        for (std::size_t i = 0; i < jacobian.contact_count(); ++i) {
-            contacts_of[static_cast<std::size_t>(jacobian.a[i])].push_back(i);
-            if (jacobian.b[i] != jacobian.a[i])
-                contacts_of[static_cast<std::size_t>(jacobian.b[i])].push_back(i);
-        }
-        std::vector<DelassusBlock<Dim>> blocks;
-        for (std::size_t i = 0; i < jacobian.contact_count(); ++i)
-            blocks.push_back({i, i, Matrix<Dim>::Zero()});
-        for (std::size_t k = 0; k < contacts_of.size(); ++k) {
-            if (inverse_mass.linear[k] == 0.0 && inverse_mass.angular[k].is_zero()) continue;
-            Eigen::Matrix<double, twist_dof<Dim>, twist_dof<Dim>> mobility;
-            mobility.setZero();
-            mobility.template topLeftCorner<Dim, Dim>().diagonal().setConstant(
-                inverse_mass.linear[k]);
-            mobility.template bottomRightCorner<rotation_dof<Dim>, rotation_dof<Dim>>() =
-                inverse_mass.angular[k];
-            const auto body = static_cast<BodyIndex>(k);
-            for (const std::size_t i : contacts_of[k])
-                for (const std::size_t j : contacts_of[k])
-                    blocks.push_back({i, j,
-                                      velocity_map(jacobian, i, body) * mobility *
-                                          velocity_map(jacobian, j, body).transpose()});
-        }
-        compress(jacobian.contact_count(), blocks);
-    }
-
-    /// Sorts blocks into rows and sums those of equal place, in the order they came.
-    void compress(std::size_t n, const std::vector<DelassusBlock<Rows>>& blocks) {
-        // The order is sorted, not the blocks: the buffer of a stable sort would not keep the
-        // alignment that vectors of the processor's full width ask for.
-        std::vector<std::size_t> order(blocks.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
-            return std::tie(blocks[x].row, blocks[x].column, x) <
-                   std::tie(blocks[y].row, blocks[y].column, y);
-        });
-        row_begin_.assign(n + 1, 0);
-        diagonal_.assign(n, 0);
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            const auto& block = blocks[order[k]];
-            if (k > 0) {
-                const auto& last = blocks[order[k - 1]];
-                if (last.row == block.row && last.column == block.column) {
-                    value_.back() += block.value;
-                    continue;
-                }
-            }
-            if (block.row == block.column) diagonal_[block.row] = value_.size();
-            value_.push_back(block.value);
-            column_.push_back(block.column);
-            row_begin_[block.row + 1] = value_.size();
-        }
-    }
+    void assemble(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass);
+    void compress(std::size_t n, const std::vector<DelassusBlock<Rows>>& blocks);
 
     std::vector<std::size_t> row_begin_;
     std::vector<std::size_t> column_;
@@ -165,7 +113,75 @@ class DelassusSparse {
     std::vector<std::size_t> diagonal_;  ///< place of W_ii in value_
     std::vector<Vector<Rows>> impulse_;
 };
+template <int Rows>
+requires ContactRows<Rows>
+template <int Dim>
+void DelassusSparse<Rows>::assemble(const ContactJacobian<Dim>& jacobian,
+                                    const InverseMass<Dim>& inverse_mass) {
+    std::vector<std::vector<std::size_t>> contacts_of(inverse_mass.body_count());
+    for (std::size_t i = 0; i < jacobian.contact_count(); ++i) {
+        contacts_of[static_cast<std::size_t>(jacobian.a[i])].push_back(i);
+        if (jacobian.b[i] != jacobian.a[i])
+            contacts_of[static_cast<std::size_t>(jacobian.b[i])].push_back(i);
+    }
+    std::vector<DelassusBlock<Dim>> blocks;
+    for (std::size_t i = 0; i < jacobian.contact_count(); ++i)
+        blocks.push_back({i, i, Matrix<Dim>::Zero()});
+    for (std::size_t k = 0; k < contacts_of.size(); ++k) {
+        if (inverse_mass.linear[k] == 0.0 && inverse_mass.angular[k].is_zero()) continue;
+        Eigen::Matrix<double, twist_dof<Dim>, twist_dof<Dim>> mobility;
+        mobility.setZero();
+        mobility.template topLeftCorner<Dim, Dim>().diagonal().setConstant(inverse_mass.linear[k]);
+        mobility.template bottomRightCorner<rotation_dof<Dim>, rotation_dof<Dim>>() =
+            inverse_mass.angular[k];
+        const auto body = static_cast<BodyIndex>(k);
+        for (const std::size_t i : contacts_of[k])
+            for (const std::size_t j : contacts_of[k])
+                blocks.push_back({i, j,
+                                  velocity_map(jacobian, i, body) * mobility *
+                                      velocity_map(jacobian, j, body).transpose()});
+    }
+    compress(jacobian.contact_count(), blocks);
+}
+
+/// Sorts blocks into rows and sums those of equal place, in the order they came.
+template <int Rows>
+requires ContactRows<Rows>
+void DelassusSparse<Rows>::compress(std::size_t n, const std::vector<DelassusBlock<Rows>>& blocks) {
+    // The order is sorted, not the blocks: the buffer of a stable sort would not keep the
+    // alignment that vectors of the processor's full width ask for.
+    std::vector<std::size_t> order(blocks.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
+        return std::tie(blocks[x].row, blocks[x].column, x) <
+               std::tie(blocks[y].row, blocks[y].column, y);
+    });
+    row_begin_.assign(n + 1, 0);
+    diagonal_.assign(n, 0);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const auto& block = blocks[order[k]];
+        if (k > 0) {
+            const auto& last = blocks[order[k - 1]];
+            if (last.row == block.row && last.column == block.column) {
+                value_.back() += block.value;
+                continue;
+            }
+        }
+        if (block.row == block.column) diagonal_[block.row] = value_.size();
+        value_.push_back(block.value);
+        column_.push_back(block.column);
+        row_begin_[block.row + 1] = value_.size();
+    }
+}
+
 static_assert(SweepableDelassus<DelassusSparse<2>, 2> && SweepableDelassus<DelassusSparse<3>, 3>);
 static_assert(SweepableDelassus<DelassusSparse<5>, 5>);
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::DelassusSparse<2>)
+TALUS_IN_SPACE(class talus::DelassusSparse<3>)
+TALUS_IN_PLANE(void talus::DelassusSparse<2>::assemble(const ContactJacobian<2>&,
+                                                       const InverseMass<2>&))
+TALUS_IN_SPACE(void talus::DelassusSparse<3>::assemble(const ContactJacobian<3>&,
+                                                       const InverseMass<3>&))

@@ -2,16 +2,21 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/law/concepts.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
+
+#if TALUS_BODIES
+#include <Eigen/SparseCholesky>
+#endif
 
 namespace talus {
 
@@ -40,6 +45,50 @@ struct GlobalProblem {
     std::size_t contact_count() const { return velocity_offset.size(); }
 };
 
+namespace detail {
+
+/// H^T M^-1 H and H^T M^-1 f.
+struct EliminatedVelocities {
+    Eigen::SparseMatrix<double> delassus;
+    Eigen::VectorXd velocity;
+};
+/// Throws input_error if M cannot be factorised.
+TALUS_FUNCTION EliminatedVelocities
+eliminated_velocities(const Eigen::SparseMatrix<double>& mass,
+                      const Eigen::SparseMatrix<double>& contact_map, const Eigen::VectorXd& force);
+/// M^-1 b. Throws input_error if M cannot be factorised.
+TALUS_FUNCTION Eigen::VectorXd solved_mass(const Eigen::SparseMatrix<double>& mass,
+                                           const Eigen::VectorXd& b);
+
+#if TALUS_BODIES
+
+/// Calls f with the Cholesky factors of M.
+template <class F>
+auto with_factors(const Eigen::SparseMatrix<double>& mass, F&& f) {
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(mass);
+    if (factors.info() != Eigen::Success)
+        throw input_error("M is singular, but must be symmetric and positive definite");
+    return f(factors);
+}
+TALUS_FUNCTION EliminatedVelocities eliminated_velocities(
+    const Eigen::SparseMatrix<double>& mass, const Eigen::SparseMatrix<double>& contact_map,
+    const Eigen::VectorXd& force) {
+    return with_factors(mass, [&](const auto& factors) {
+        const Eigen::SparseMatrix<double> mobility = factors.solve(contact_map);
+        return EliminatedVelocities{contact_map.transpose() * mobility,
+                                    contact_map.transpose() * factors.solve(force)};
+    });
+}
+TALUS_FUNCTION Eigen::VectorXd solved_mass(const Eigen::SparseMatrix<double>& mass,
+                                           const Eigen::VectorXd& b) {
+    return with_factors(mass,
+                        [&](const auto& factors) { return Eigen::VectorXd(factors.solve(b)); });
+}
+
+#endif
+
+}  // namespace detail
+
 /// Eliminates the velocities: W = H^T M^-1 H, free_velocity = H^T M^-1 f + w. Throws input_error
 /// unless the sizes agree and M can be factorised. Cost: one sparse Cholesky factor of M and a
 /// solve per column of H; W is as sparse as M is block-diagonal.
@@ -61,12 +110,7 @@ AssembledProblem<Rows, Law> assembled(const GlobalProblem<Rows, Law>& p) {
     result.free_velocity = p.velocity_offset;
     if (contacts == 0) return result;
 
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(p.mass);
-    if (factor.info() != Eigen::Success)
-        throw input_error("M is singular, but must be symmetric and positive definite");
-    const Eigen::SparseMatrix<double> mobility = factor.solve(p.contact_map);
-    const Eigen::SparseMatrix<double> w = p.contact_map.transpose() * mobility;
-    const Eigen::VectorXd velocity = p.contact_map.transpose() * factor.solve(p.force);
+    const auto [w, velocity] = detail::eliminated_velocities(p.mass, p.contact_map, p.force);
     std::vector<DelassusBlock<Rows>> blocks;
     for (Eigen::Index j = 0; j < w.outerSize(); ++j)
         for (Eigen::SparseMatrix<double>::InnerIterator entry(w, j); entry; ++entry) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
 #include <talus/law/friction_cone.hpp>
 #include <talus/linear/block_lu.hpp>
 #include <talus/problem/body_map.hpp>
@@ -338,3 +339,6 @@ void ConeSystem<Dim>::solve(const Vec& b, Vec& x, int refinements) {
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::ConeSystem<2>)
+TALUS_IN_SPACE(class talus::ConeSystem<3>)

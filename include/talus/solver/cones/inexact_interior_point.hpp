@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/solver/cones/interior_point.hpp>
 #include <talus/solver/cones/krylov_cone_solver.hpp>
 
@@ -42,3 +44,10 @@ template <int Dim, ConeLaw<Dim> Law>
 using InexactInteriorPoint = BasicInteriorPoint<Dim, Law, KrylovDirections<Dim>>;
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::ConeEngine<2, talus::Coulomb<2>,
+                                       talus::InexactInteriorPoint<2, talus::Coulomb<2>>>)
+TALUS_IN_SPACE(class talus::ConeEngine<3, talus::Coulomb<3>,
+                                       talus::InexactInteriorPoint<3, talus::Coulomb<3>>>)
+TALUS_IN_PLANE(class talus::BasicInteriorPoint<2, talus::Coulomb<2>, talus::KrylovDirections<2>>)
+TALUS_IN_SPACE(class talus::BasicInteriorPoint<3, talus::Coulomb<3>, talus::KrylovDirections<3>>)

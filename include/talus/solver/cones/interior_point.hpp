@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
 #include <talus/core/types.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/solver/cones/cone_engine.hpp>
 #include <talus/solver/cones/nesterov_todd.hpp>
 
@@ -328,3 +330,10 @@ template <int Dim, ConeLaw<Dim> Law>
 using InteriorPoint = BasicInteriorPoint<Dim, Law, FactoredDirections<Dim>>;
 
 }  // namespace talus
+
+TALUS_IN_PLANE(
+    class talus::ConeEngine<2, talus::Coulomb<2>, talus::InteriorPoint<2, talus::Coulomb<2>>>)
+TALUS_IN_SPACE(
+    class talus::ConeEngine<3, talus::Coulomb<3>, talus::InteriorPoint<3, talus::Coulomb<3>>>)
+TALUS_IN_PLANE(class talus::BasicInteriorPoint<2, talus::Coulomb<2>, talus::FactoredDirections<2>>)
+TALUS_IN_SPACE(class talus::BasicInteriorPoint<3, talus::Coulomb<3>, talus::FactoredDirections<3>>)

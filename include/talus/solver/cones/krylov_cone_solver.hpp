@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
 #include <talus/core/types.hpp>
 #include <talus/linear/bicgstab.hpp>
 #include <talus/linear/block_ilu.hpp>
@@ -310,3 +311,6 @@ bool KrylovConeSolver<Dim>::improve(const ConeSystem<Dim>& system, const Vec& b,
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::KrylovConeSolver<2>)
+TALUS_IN_SPACE(class talus::KrylovConeSolver<3>)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
 #include <talus/core/types.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/solver/cones/central_pair.hpp>
 #include <talus/solver/cones/cone_engine.hpp>
 
@@ -145,3 +147,10 @@ void NewtonPolish<Dim, Law>::iterate(Vec& best) {
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(
+    class talus::ConeEngine<2, talus::Coulomb<2>, talus::NewtonPolish<2, talus::Coulomb<2>>>)
+TALUS_IN_SPACE(
+    class talus::ConeEngine<3, talus::Coulomb<3>, talus::NewtonPolish<3, talus::Coulomb<3>>>)
+TALUS_IN_PLANE(class talus::NewtonPolish<2, talus::Coulomb<2>>)
+TALUS_IN_SPACE(class talus::NewtonPolish<3, talus::Coulomb<3>>)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
 #include <talus/core/types.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/solver/cones/cone_engine.hpp>
 
 #include <Eigen/Core>
@@ -280,3 +282,10 @@ void ProjectedGradient<Dim, Law>::iterate_accelerated(Vec& best) {
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(
+    class talus::ConeEngine<2, talus::Coulomb<2>, talus::ProjectedGradient<2, talus::Coulomb<2>>>)
+TALUS_IN_SPACE(
+    class talus::ConeEngine<3, talus::Coulomb<3>, talus::ProjectedGradient<3, talus::Coulomb<3>>>)
+TALUS_IN_PLANE(class talus::ProjectedGradient<2, talus::Coulomb<2>>)
+TALUS_IN_SPACE(class talus::ProjectedGradient<3, talus::Coulomb<3>>)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/instantiate.hpp>
 #include <talus/core/types.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/solver/cones/central_pair.hpp>
 #include <talus/solver/cones/cone_engine.hpp>
 #include <talus/solver/cones/overlap_certificate.hpp>
@@ -336,3 +338,10 @@ bool ProximalNewton<Dim, Law>::proves_overlap() {
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(
+    class talus::ConeEngine<2, talus::Coulomb<2>, talus::ProximalNewton<2, talus::Coulomb<2>>>)
+TALUS_IN_SPACE(
+    class talus::ConeEngine<3, talus::Coulomb<3>, talus::ProximalNewton<3, talus::Coulomb<3>>>)
+TALUS_IN_PLANE(class talus::ProximalNewton<2, talus::Coulomb<2>>)
+TALUS_IN_SPACE(class talus::ProximalNewton<3, talus::Coulomb<3>>)

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/solver/cones/cone_engine.hpp>
 #include <talus/solver/oracle/slip_angle.hpp>
 #include <talus/solver/oracle/status_search.hpp>
@@ -138,3 +140,10 @@ void Enumeration<Dim, Law>::find_all() {
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(
+    class talus::ConeEngine<2, talus::Coulomb<2>, talus::Enumeration<2, talus::Coulomb<2>>>)
+TALUS_IN_SPACE(
+    class talus::ConeEngine<3, talus::Coulomb<3>, talus::Enumeration<3, talus::Coulomb<3>>>)
+TALUS_IN_PLANE(class talus::Enumeration<2, talus::Coulomb<2>>)
+TALUS_IN_SPACE(class talus::Enumeration<3, talus::Coulomb<3>>)

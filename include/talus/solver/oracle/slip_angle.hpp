@@ -2,9 +2,9 @@
 #pragma once
 
 #include <talus/core/dimension.hpp>
+#include <talus/core/instantiate.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,10 @@
 #include <numbers>
 #include <optional>
 #include <vector>
+
+#if TALUS_BODIES
+#include <Eigen/Eigenvalues>
+#endif
 
 namespace talus {
 
@@ -52,8 +56,13 @@ struct SlipAngle {
 /// angles 2 pi k / 5: at most four, those next to a double root included. Nothing if it is below
 /// `zero` everywhere. The roots z = exp(i angle) of a quartic, as eigenvalues of its companion
 /// matrix.
-inline std::optional<std::vector<double>> trigonometric_roots(const std::array<double, 5>& value,
-                                                              double zero) {
+TALUS_FUNCTION std::optional<std::vector<double>> trigonometric_roots(
+    const std::array<double, 5>& value, double zero);
+
+#if TALUS_BODIES
+
+TALUS_FUNCTION std::optional<std::vector<double>> trigonometric_roots(
+    const std::array<double, 5>& value, double zero) {
     using Complex = std::complex<double>;
     constexpr double part = 2.0 * std::numbers::pi / 5.0;
     std::array<Complex, 5> coefficient{};  // of z^0 ... z^4
@@ -83,5 +92,7 @@ inline std::optional<std::vector<double>> trigonometric_roots(const std::array<d
         if (std::abs(std::abs(z) - 1.0) < unit) angles.push_back(std::arg(z));
     return angles;
 }
+
+#endif
 
 }  // namespace talus

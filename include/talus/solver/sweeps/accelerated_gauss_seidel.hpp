@@ -2,6 +2,8 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/problem/body_map.hpp>
 #include <talus/problem/delassus_product.hpp>
 #include <talus/problem/matrix_problem.hpp>
@@ -294,3 +296,6 @@ bool AcceleratedGaussSeidel<Dim, Law>::find_combination() {
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::AcceleratedGaussSeidel<2, talus::Coulomb<2>>)
+TALUS_IN_SPACE(class talus::AcceleratedGaussSeidel<3, talus::Coulomb<3>>)

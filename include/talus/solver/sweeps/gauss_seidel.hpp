@@ -3,7 +3,9 @@
 
 #include <talus/core/check.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/core/observer.hpp>
+#include <talus/law/coulomb.hpp>
 #include <talus/problem/delassus_product.hpp>
 #include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/concepts.hpp>
@@ -224,3 +226,6 @@ const SolveReport& GaussSeidel<Dim, Law>::solve(DelassusSparse<Dim>& w,
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::GaussSeidel<2, talus::Coulomb<2>>)
+TALUS_IN_SPACE(class talus::GaussSeidel<3, talus::Coulomb<3>>)
