@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Measures what compiling talus costs: user CPU seconds and peak memory of one compiler process at a time.
+"""Measures what compiling talus costs: user CPU seconds and peak memory of one compiler process at a time, and all the
+memory that GCC asks for on the way, a measure of its work that is the same on any machine and day.
 
 The unit is Eigen/Core alone, by which machines and days become comparable. The least of the repeats counts: other
 programs can only add to it.
 """
 import argparse
+import contextlib
 import datetime
 import json
 import os
@@ -20,6 +22,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 INCLUDES = ("/usr/include/eigen3", "/usr/include/hdf5/serial")
 FLAGS = "-O2 -std=c++20"
 UNIT = "Eigen/Core"
+# Keeps GCC from giving memory back: the peak is then all that it asked for.
+NO_COLLECTION = ("--param", "ggc-min-expand=1000", "--param", "ggc-min-heapsize=100000000")
 
 
 class CompileError(Exception):
@@ -34,10 +38,10 @@ class Compiler:
     def version(self):
         return subprocess.run([self.name, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
 
-    def once(self, source):
+    def once(self, source, extra=()):
         """User CPU seconds and peak memory [MB] of the compiler and what it starts."""
         with tempfile.TemporaryFile() as said:
-            process = subprocess.Popen([*self.command, "-c", "-o", os.devnull, "-xc++", str(source)], stdout=said, stderr=said)
+            process = subprocess.Popen([*self.command, *extra, "-c", "-o", os.devnull, "-xc++", str(source)], stdout=said, stderr=said)
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
             if process.returncode:
@@ -45,15 +49,26 @@ class Compiler:
                 raise CompileError(said.read().decode(errors="replace")[-2000:])
         return {"seconds": usage.ru_utime, "megabytes": usage.ru_maxrss / 1024}
 
-    def measure(self, source, repeats=1):
-        """Of a file, or of a text that includes something: the least of some repeats."""
+    @contextlib.contextmanager
+    def file(self, source):
+        """A file, or a text written into one."""
         with tempfile.TemporaryDirectory() as folder:
             if not isinstance(source, pathlib.Path):
                 path = pathlib.Path(folder) / "source.cpp"
                 path.write_text(source, encoding="utf-8")
                 source = path
-            found = [self.once(source) for _ in range(repeats)]
+            yield source
+
+    def measure(self, source, repeats=1):
+        """Of a file, or of a text that includes something: the least of some repeats."""
+        with self.file(source) as path:
+            found = [self.once(path) for _ in range(repeats)]
         return {key: min(one[key] for one in found) for key in found[0]}
+
+    def work(self, source):
+        """All memory that GCC asks for [MB]."""
+        with self.file(source) as path:
+            return self.once(path, NO_COLLECTION)["megabytes"]
 
 
 def including(headers):

@@ -13,49 +13,59 @@ import compile_times  # noqa: E402
 class Invented(compile_times.Compiler):
     """Each compilation takes what the lists say, one after the other; the last is repeated."""
 
-    def __init__(self, unit, program, megabytes=100):
+    def __init__(self, unit, program, megabytes=100, work=2.0):
         super().__init__()
         self.lists = {"unit": list(unit), "program": list(program)}
         self.megabytes = megabytes
+        self.ratio = work
 
     def version(self):
         return "invented"
 
-    def once(self, source):
-        left = self.lists["unit" if "Eigen/Core" in source.read_text(encoding="utf-8") else "program"]
+    def once(self, source, extra=()):
+        name = "unit" if "Eigen/Core" in source.read_text(encoding="utf-8") else "program"
+        if extra == compile_times.NO_COLLECTION:
+            return {"seconds": 0.0, "megabytes": 100.0 * (1.0 if name == "unit" else self.ratio)}
+        left = self.lists[name]
         return {"seconds": left.pop(0) if len(left) > 1 else left[0], "megabytes": self.megabytes}
 
 
-def check(compiler, table):
+def check(compiler, full=True, **table):
+    table = {name: compile_ceilings.Ceiling(*ceiling) for name, ceiling in table.items()}
     with contextlib.redirect_stdout(io.StringIO()) as said:
-        kept = compile_ceilings.check(compiler, table)
+        kept = compile_ceilings.check(compiler, table, full)
     return kept, said.getvalue()
 
 
 class Ceilings(unittest.TestCase):
-    def test_a_program_below_its_ceiling_passes(self):
-        self.assertTrue(check(Invented([1], [2]), {"talus.hpp": (2.5, 1024)})[0])
+    def test_a_program_below_its_ceilings_passes(self):
+        self.assertTrue(check(Invented([1], [2]), small_program=(2.1, 2.5, 1024))[0])
 
-    def test_a_ceiling_of_a_tenth_fails_and_names_the_program(self):
-        kept, said = check(Invented([1], [2]), {"talus.hpp": (0.1, 1024)})
-        self.assertFalse(kept)
-        self.assertRegex(said, r"talus\.hpp +2\.00 of at most +0\.10 units.*TOO MUCH")
+    def test_too_much_work_fails_and_names_the_program(self):
+        for full in (False, True):
+            kept, said = check(Invented([1], [2]), full, small_program=(1.9, 2.5, 1024))
+            self.assertFalse(kept)
+            self.assertRegex(said, r"small_program +work +2\.00 of at most +1\.90 units  TOO MUCH")
+
+    def test_time_and_memory_count_in_full_alone(self):
+        for ceiling in ((2.1, 1.9, 1024), (2.1, 2.5, 99)):
+            self.assertTrue(check(Invented([1], [2]), False, small_program=ceiling)[0])
+            kept, said = check(Invented([1], [2]), True, small_program=ceiling)
+            self.assertFalse(kept)
+            self.assertEqual(said.count("TOO MUCH"), 1)
 
     def test_one_above_its_ceiling_among_others_fails(self):
-        kept, said = check(Invented([1], [2]), {"talus.hpp": (2.5, 1024), "small_program": (0.1, 1024)})
+        kept, said = check(Invented([1], [2]), **{"talus.hpp": (2.5, 2.5, 1024), "small_program": (0.1, 2.5, 1024)})
         self.assertFalse(kept)
         self.assertEqual(said.count("TOO MUCH"), 1)
 
-    def test_too_much_memory_fails(self):
-        self.assertFalse(check(Invented([1], [2], megabytes=1024), {"talus.hpp": (2.5, 1024)})[0])
-
     def test_the_smaller_unit_counts(self):
-        # first, before, after
-        self.assertFalse(check(Invented([9, 2, 1], [3]), {"talus.hpp": (2, 1024)})[0])
-        self.assertFalse(check(Invented([9, 1, 2], [3]), {"talus.hpp": (2, 1024)})[0])
+        # twice before, once after
+        self.assertFalse(check(Invented([2, 2, 1], [3]), small_program=(2.1, 2, 1024))[0])
+        self.assertFalse(check(Invented([2, 1, 2], [3]), small_program=(2.1, 2, 1024))[0])
 
-    def test_a_disturbed_measurement_gets_a_second_chance(self):
-        self.assertTrue(check(Invented([1], [3, 2]), {"talus.hpp": (2.5, 1024)})[0])
+    def test_a_disturbed_measurement_gets_another_chance(self):
+        self.assertTrue(check(Invented([1], [3, 3, 2]), small_program=(2.1, 2.5, 1024))[0])
 
     def test_full_has_a_ceiling_for_every_example(self):
         full = compile_ceilings.ceilings(True)
@@ -74,6 +84,12 @@ class Measured(unittest.TestCase):
         one = compile_times.Compiler().measure(text)
         self.assertGreater(one["seconds"], 0.03)
         self.assertGreater(one["megabytes"], 10)
+
+    def test_work_is_the_same_in_every_run(self):
+        text = "#include <vector>\nint f() { std::vector<int> v(3); return v[0]; }\n"
+        first, second = (compile_times.Compiler().work(text) for _ in range(2))
+        self.assertLess(abs(first / second - 1.0), 0.01)
+        self.assertGreater(compile_times.Compiler().work("#include <map>\n" + text), 1.02 * first)
 
 
 if __name__ == "__main__":

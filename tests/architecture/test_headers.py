@@ -3,6 +3,7 @@
 import contextlib
 import io
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -21,7 +22,7 @@ def verdict(files):
             (pathlib.Path(folder) / name).write_text("#pragma once\n" + text)
         output = io.StringIO()
         with contextlib.redirect_stdout(output):
-            code = headers.main(COMPILER, folder, "2", *FLAGS)
+            code = headers.main(COMPILER, folder, "2", "all", *FLAGS)
         return code, output.getvalue()
 
 
@@ -46,6 +47,39 @@ class Headers(unittest.TestCase):
 
     def test_warnings_are_errors(self):
         self.assertEqual(verdict({"bad.hpp": "#include <Eigen/Core>\ninline int f(double x) { return x; }\n"})[0], 1)
+
+    def test_changed_headers_and_those_that_include_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder) / "include"
+            root.mkdir()
+
+            def changed():
+                names = sorted(path.name for path in root.glob("*.hpp"))
+                return headers.changed(root, names)
+
+            def git(*words):
+                subprocess.run(["git", "-C", folder, "-c", "user.name=a", "-c", "user.email=a@b", *words], check=True,
+                               capture_output=True)
+
+            def write(name, text=""):
+                (root / name).write_text("#pragma once\n" + text)
+
+            write("base.hpp")
+            write("user.hpp", "#include <base.hpp>\n")
+            write("other.hpp")
+            self.assertIsNone(changed())
+            git("init")
+            git("add", ".")
+            git("commit", "-m", "all")
+            self.assertIsNone(changed())
+            write("base.hpp", "// changed\n")
+            git("commit", "-am", "base")
+            self.assertEqual(changed(), ["base.hpp", "user.hpp"])
+            git("commit", "--allow-empty", "-m", "nothing")
+            self.assertEqual(changed(), [])
+            write("other.hpp", "// not committed\n")
+            write("new.hpp")
+            self.assertEqual(changed(), ["new.hpp", "other.hpp"])
 
     def test_no_header_is_no_success(self):
         self.assertEqual(verdict({})[0], 1)

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "common/dimensions.hpp"
+#include "common/effort.hpp"
 #include "common/pair_tester.hpp"
 
 BOOST_AUTO_TEST_SUITE(collision_convex_pairs)
@@ -14,7 +15,7 @@ void try_kinds(int kind_a, int kind_b, double scale) {
     BOOST_TEST_CONTEXT("kinds " << kind_a << ", " << kind_b << ", dimension " << Dim << ", scale "
                                 << scale) {
         random_geometry::Generator g(20u + static_cast<unsigned>(10 * kind_a + kind_b));
-        for (int trial = 0; trial < 40; ++trial) {
+        for (int trial = 0; trial < repetitions(40, 4); ++trial) {
             const auto a = random_geometry::convex_shape<Dim>(g, kind_a, scale);
             const auto b = random_geometry::convex_shape<Dim>(g, kind_b, scale);
             const auto at_a = random_geometry::pose<Dim>(g, scale);

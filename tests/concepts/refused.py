@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSL-1.0
-"""usage: refused.py FOLDER INCLUDE EIGEN [NAME...]
+"""usage: refused.py COMPILERS FOLDER INCLUDE EIGEN [NAME...]
 
-Compiles every FOLDER/*.cpp (or those named) with GCC and Clang, where present, and checks that each
-is refused, in at most five lines of error and note, with every word of its `// expect: word` lines
+Compiles every FOLDER/*.cpp (or those named) with each of COMPILERS (a list with semicolons; those that
+are not there are left out) and checks that each is refused, in at most five lines of error and note, with every word of its `// expect: word` lines
 among them. So a wrong law, shape or solver is answered with what it lacks.
 """
 import pathlib
@@ -12,17 +12,17 @@ import subprocess
 import sys
 
 MOST_LINES = 5
-COMPILERS = {"g++": ["-fmax-errors=1"], "clang++": ["-ferror-limit=1"]}
 # A line that names a place in a file: the compilers' hints about their own options are no part of it.
 DIAGNOSTIC = re.compile(r"^\S+:\d+:\d+: (?:fatal )?(?:error|note):.*$", re.MULTILINE)
 
 
-def complaint(compiler, options, path, includes):
+def complaint(compiler, path, includes):
     """What is wrong with the refusal of the program at `path`; empty if nothing is."""
     expected = re.findall(r"^// expect: (.+)$", path.read_text(), re.MULTILINE)
     if not expected:
         return "no '// expect: word' line"
-    run = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", *options, *includes, path],
+    stop = "-ferror-limit=1" if "clang" in pathlib.Path(compiler).name else "-fmax-errors=1"
+    run = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", stop, *includes, path],
                          capture_output=True, text=True, env={"LC_ALL": "C", "PATH": "/usr/bin:/bin"})
     lines = DIAGNOSTIC.findall(run.stderr)
     if run.returncode == 0:
@@ -35,19 +35,18 @@ def complaint(compiler, options, path, includes):
     return ""
 
 
-def main(folder, include, eigen, *names):
+def main(compilers, folder, include, eigen, *names):
     includes = ["-I", include, *(part for path in eigen.split(";") for part in ("-isystem", path))]
     programs = sorted(pathlib.Path(folder).glob("*.cpp"))
     if names:
         programs = [path for path in programs if path.stem in names]
-    failed = not programs
-    for path in programs:
-        for compiler, options in COMPILERS.items():
-            if not shutil.which(compiler):
-                if path == programs[0]:
-                    print(f"skipped, {compiler} not found", flush=True)
-                continue
-            wrong = complaint(compiler, options, path, includes)
+    failed = not programs or not any(shutil.which(compiler) for compiler in compilers.split(";"))
+    for compiler in compilers.split(";"):
+        if not shutil.which(compiler):
+            print(f"{compiler} is not there", flush=True)
+            continue
+        for path in programs:
+            wrong = complaint(compiler, path, includes)
             failed |= bool(wrong)
             print(f"{path.stem}, {compiler}: {wrong or 'refused'}", flush=True)
     return 1 if failed else 0

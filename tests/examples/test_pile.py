@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""usage: test_pile.py PILE ROOT    runs the program `pile` on small scenes, right and wrong."""
+"""usage: test_pile.py PILE ROOT [short]    runs the program `pile` on small scenes, right and wrong; `short`: not until
+they are at rest, for programs that sanitizers make slow.
+"""
 import json
 import pathlib
 import re
@@ -11,6 +13,7 @@ import unittest
 import xml.etree.ElementTree as xml
 
 PILE, ROOT = sys.argv[1], pathlib.Path(sys.argv[2])
+SHORT = "short" in sys.argv[3:]
 SCENES = ROOT / "examples" / "scenes"
 
 HEAD = "pile 1\ndim 2 shape {shape} n {n}\nbox 0.2 0 0\nmu 0.4 rho 2600 g 9.81 rmean 0.005\n"
@@ -110,14 +113,16 @@ class Pile(unittest.TestCase):
         self.assertEqual(c["steps_missed"], 0)
         self.assertLessEqual(c["worst_residual"], c["tolerance"])
         self.assertLess(c["energy_closure"], 1e-10)
+        self.assertEqual(len(c["per_step"]), c["steps"])
+        if SHORT:
+            return
         self.assertLess(c["mean_penetration_m"], 0.01 * c["mean_radius_m"])
         self.assertLess(abs(c["reaction_over_weight"] - 1), 1e-3)
-        self.assertEqual(len(c["per_step"]), c["steps"])
 
     def test_small_piles_settle_with_a_good_certificate(self):
         for scene in ("polygons.txt", "spheres.txt"):
             with self.subTest(scene=scene):
-                text, certificate = self.certificate("--scene", SCENES / scene, "--duration", "0.8")
+                text, certificate = self.certificate("--scene", SCENES / scene, "--duration", "0.1" if SHORT else "0.8")
                 self.check_certificate(certificate)
                 self.assertRegex(text, r"energy books +close to")
 

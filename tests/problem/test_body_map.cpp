@@ -2,11 +2,11 @@
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/body_map.hpp>
 
+#include <Eigen/Cholesky>
+
 #include "common/delassus_tester.hpp"
 #include "common/dimensions.hpp"
 #include "common/random_problem.hpp"
-
-#include <Eigen/Cholesky>
 
 namespace {
 

@@ -30,7 +30,7 @@ struct Options {
     int jobs = 1;
     std::uint64_t seed = 1;
     bool list = false;
-    bool mutants = false;
+    bool mutants = false, few_mutants = false;
     std::string solver = usual_solver;
     double patience = 1.0;
     std::string output = "report.json";
@@ -264,7 +264,7 @@ int run(const Options& options) {
     if (options.mutants && failed == 0) {
         const Progress mutant_progress;
         const auto cells = run_mutants(
-            jobs, results, options.patience, run_options,
+            jobs, results, {options.few_mutants, options.patience}, run_options,
             [&](std::size_t k, std::size_t all) { mutant_progress.show(k, all, "mutants"); });
         mutant_progress.clear();
         const MatrixVerdict verdict = judge(cells);
@@ -314,12 +314,15 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(solver_names()));
     app.add_flag("--mutants", options.mutants,
                  "put each fault into the method and see who notices");
+    app.add_flag("--few-mutants", options.few_mutants,
+                 "put each fault into its quickest case and see whether it is noticed");
     app.add_option("--patience", options.patience,
                    "faults that a case does not claim are tried where it takes less than this [s]")
         ->capture_default_str();
     app.add_option("--output", options.output, "where report.json goes")->capture_default_str();
     app.add_option("--commit", options.commit, "what to call the state of the repository");
     CLI11_PARSE(app, argc, argv);
+    options.mutants |= options.few_mutants;
     try {
         return run(options);
     } catch (const std::exception& e) {

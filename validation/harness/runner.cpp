@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -105,17 +106,50 @@ std::vector<Result> run_all(const std::vector<Job>& jobs, const RunOptions& opti
     return results;
 }
 
+namespace {
+
+bool claims(const Case& of, Fault fault) {
+    return std::find(of.text.catches.begin(), of.text.catches.end(), fault) !=
+           of.text.catches.end();
+}
+
+/// Of each case the claims that MutantChoice::few asks for.
+std::set<std::pair<const Case*, Fault>> few_claims(const std::vector<Job>& jobs,
+                                                   const std::vector<Result>& sound) {
+    // Of a case's dimensions the one that catches may be any: they count together.
+    std::map<const Case*, double> seconds;
+    for (std::size_t k = 0; k < jobs.size(); ++k) seconds[jobs[k].of] += sound[k].seconds;
+    std::set<std::pair<const Case*, Fault>> chosen;
+    std::set<const Case*> busy;
+    for (const FaultText& text : fault_texts) {
+        const Case* quickest = nullptr;
+        for (const Job& job : jobs)
+            if (claims(*job.of, text.fault) &&
+                (quickest == nullptr || seconds[job.of] < seconds[quickest]))
+                quickest = job.of;
+        if (quickest == nullptr) continue;
+        chosen.insert({quickest, text.fault});
+        busy.insert(quickest);
+    }
+    for (const Job& job : jobs)
+        if (!busy.contains(job.of) && !job.of->text.catches.empty())
+            chosen.insert({job.of, job.of->text.catches.front()});
+    return chosen;
+}
+
+}  // namespace
+
 std::vector<Cell> run_mutants(const std::vector<Job>& jobs, const std::vector<Result>& sound,
-                              double patience, const RunOptions& options,
+                              const MutantChoice& choice, const RunOptions& options,
                               const std::function<void(std::size_t, std::size_t)>& done) {
     std::vector<Cell> cells;
+    const auto few = choice.few ? few_claims(jobs, sound) : decltype(few_claims(jobs, sound)){};
     for (std::size_t k = 0; k < jobs.size(); ++k) {
         cells.push_back({jobs[k].of, jobs[k].dim, Fault::control, false, false, {}, 0.0});
         for (const FaultText& text : fault_texts) {
-            const auto& claims = jobs[k].of->text.catches;
-            const bool claimed =
-                std::find(claims.begin(), claims.end(), text.fault) != claims.end();
-            if (claimed || sound[k].seconds <= patience)
+            const bool claimed = claims(*jobs[k].of, text.fault);
+            if (choice.few ? few.contains({jobs[k].of, text.fault})
+                           : claimed || sound[k].seconds <= choice.patience)
                 cells.push_back({jobs[k].of, jobs[k].dim, text.fault, claimed, false, {}, 0.0});
         }
     }

@@ -59,10 +59,19 @@ struct Job {
 std::vector<Result> run_all(const std::vector<Job>& jobs, const RunOptions& options,
                             const std::function<void(std::size_t, const Result&)>& done);
 
-/// Runs the jobs under the control and under the faults: those that a case claims, and the others
-/// too where the case took less than `patience` seconds without a fault.
+/// Which faults are tried in which cases, besides the control in all.
+struct MutantChoice {
+    /// Each fault in the quickest case that claims it, each case under one of its claims, and no
+    /// more: what a change is held to. Otherwise every claim.
+    bool few = false;
+    /// Faults that a case does not claim are tried where it took less than this without a fault
+    /// [s].
+    double patience = 0.0;
+};
+
+/// Runs the jobs under the control and under faults.
 std::vector<Cell> run_mutants(const std::vector<Job>& jobs, const std::vector<Result>& sound,
-                              double patience, const RunOptions& options,
+                              const MutantChoice& choice, const RunOptions& options,
                               const std::function<void(std::size_t, std::size_t)>& done);
 
 /// Faults that no case caught, and cases (id and dimension are one line of the matrix) that caught

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/version.hpp>
+
 #include <Eigen/Core>
 
 /// Names a template instance that the library talus::compiled holds, below the template and outside
@@ -38,21 +40,29 @@
 
 namespace talus::detail {
 
-/// Eigen aligns its arrays for the vector instructions that it may use, so a program compiled for
-/// others than the library has other layouts. The library defines `tag` for its own alignment
-/// alone: the linker then names the one that is missing. (`used`, as no code asks for it: an inline
-/// variable that nothing uses is left out, and the question with it.)
-template <int Bytes>
-struct CompiledWithAlignment {
+/// What makes layouts and memory differ between files that include the same headers: the version,
+/// the alignment of Eigen's arrays and of its memory, which follow the vector instructions that a
+/// file is compiled for, and the debug mode of the standard library. The library defines `tag` for
+/// its own alone: the linker then names what another file was compiled for. (`used` and `retain`,
+/// as no code asks for it: compiler and linker leave out what nothing uses, and the question with
+/// it.)
+template <int Version, int ArrayAlignment, int MemoryAlignment, bool DebugStandardLibrary>
+struct CompiledFor {
     static const int tag;
 };
+#ifdef _GLIBCXX_DEBUG
+inline constexpr bool debug_standard_library = true;
+#else
+inline constexpr bool debug_standard_library = false;
+#endif
+using CompiledForThis =
+    CompiledFor<10000 * TALUS_VERSION_MAJOR + 100 * TALUS_VERSION_MINOR + TALUS_VERSION_PATCH,
+                EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_DEFAULT_ALIGN_BYTES, debug_standard_library>;
 #if defined(TALUS_COMPILE_FUNCTIONS)
-template <int Bytes>
-const int CompiledWithAlignment<Bytes>::tag = Bytes;
-template struct CompiledWithAlignment<EIGEN_MAX_STATIC_ALIGN_BYTES>;
+template <>
+const int CompiledForThis::tag = 1;
 #elif defined(TALUS_COMPILED)
-[[gnu::used]] inline const int* const same_alignment_as_compiled =
-    &CompiledWithAlignment<EIGEN_MAX_STATIC_ALIGN_BYTES>::tag;
+[[gnu::used, gnu::retain]] inline const int* const compiled_for_this = &CompiledForThis::tag;
 #endif
 
 }  // namespace talus::detail

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <concepts>
 #include <type_traits>
 
 namespace talus {
@@ -47,7 +48,15 @@ constexpr auto sum_over(const F& f) {
     return sum;
 }
 
+/// A factor that a matrix of T takes: a fraction of whole numbers is not one.
+template <class S, class T>
+concept ScalarFor = std::floating_point<T> && std::is_arithmetic_v<S>;
+
 }  // namespace detail
+
+#ifdef EIGEN_DEFAULT_TO_ROW_MAJOR
+#error "talus needs Eigen's usual order of storage, by columns: EIGEN_DEFAULT_TO_ROW_MAJOR is set"
+#endif
 
 /// An Eigen matrix of a few components whose own arithmetic is eager: a + b is a matrix, not an
 /// expression. Eigen gives every expression a type with some two hundred members; for three
@@ -55,8 +64,10 @@ constexpr auto sum_over(const F& f) {
 /// of talus. A value also outlives its operands, so `auto c = a + b;` is safe.
 ///
 /// It remains an Eigen matrix: it takes and gives Eigen's expressions, and what is not declared
-/// here (blocks, decompositions, arrays, comma initialisation) is Eigen's own, lazy as ever. The
-/// default constructor leaves the components as they are, like Eigen's.
+/// here (blocks, decompositions, arrays, comma initialisation) is Eigen's own, lazy as ever: a
+/// block of a result refers to a value that is gone, so `auto h = (a + b).head<2>();` needs an
+/// `.eval()` where Eigen's expression would not. The default constructor leaves the components as
+/// they are, like Eigen's.
 template <int Rows, int Cols, class Real = double>
 class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
   public:
@@ -128,7 +139,8 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
     Real trace() const requires(Rows == Cols) {
         return detail::sum_over<Rows>([&](int i) { return at(i * (Rows + 1)); });
     }
-    /// Of length 1, or itself if it is zero.
+    /// Of length 1, or itself if it is zero; for components between 1e-150 and 1e150, whose squares
+    /// are numbers.
     SmallMatrix normalized() const {
         const Real square = squaredNorm();
         return square > Real(0) ? *this / std::sqrt(square) : *this;
@@ -245,17 +257,17 @@ SmallMatrix<R, C, T> operator-(const SmallMatrix<R, C, T>& a) {
     return r;
 }
 template <class S, int R, int C, class T>
-requires std::is_arithmetic_v<S> SmallMatrix<R, C, T>
+requires detail::ScalarFor<S, T> SmallMatrix<R, C, T>
 operator*(S s, const SmallMatrix<R, C, T>& a) {
     SmallMatrix<R, C, T> r;
     detail::for_each_index<R * C>([&](int i) { r.data()[i] = static_cast<T>(s) * a.data()[i]; });
     return r;
 }
 template <class S, int R, int C, class T>
-requires std::is_arithmetic_v<S> SmallMatrix<R, C, T>
+requires detail::ScalarFor<S, T> SmallMatrix<R, C, T>
 operator*(const SmallMatrix<R, C, T>& a, S s) { return s * a; }
 template <class S, int R, int C, class T>
-requires std::is_arithmetic_v<S> SmallMatrix<R, C, T>
+requires detail::ScalarFor<S, T> SmallMatrix<R, C, T>
 operator/(const SmallMatrix<R, C, T>& a, S s) {
     SmallMatrix<R, C, T> r;
     detail::for_each_index<R * C>([&](int i) { r.data()[i] = a.data()[i] / static_cast<T>(s); });

@@ -49,7 +49,7 @@ struct AutomaticParams {
 /// beforehand; each begins where the last one ended. The best impulses met are returned.
 ///
 /// Costs are counted in visits of contacts, from the structure of the problem and never by a clock:
-/// the same input takes the same way on any machine, to the bit. Engines that treat all contacts at
+/// the same input takes the same way on a machine, to the bit. Engines that treat all contacts at
 /// once need laws with a cone (law/cone_of.hpp); with others sweeps do everything.
 ///
 /// The report's `stages` tell who did what; `iterations` counts those of all engines. `no_solution`

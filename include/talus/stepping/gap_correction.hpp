@@ -28,10 +28,11 @@ struct GapCorrectionParams {
 
 /// Moves overlapping bodies apart, positions only: the smallest displacement (in the kinetic
 /// metric) that takes a share of each overlap away, a frictionless contact problem in
-/// displacements. Velocities are not touched, so no kinetic energy appears; lifting bodies against
-/// gravity is paid for out of what the contacts have dissipated so far: displacements that would
-/// cost more are shortened, so the total energy never exceeds what it would have been without
-/// dissipation.
+/// displacements. Velocities stay, and spins in body axes do, so that a body which is turned keeps
+/// its kinetic energy and its spin turns with it. Lifting bodies against gravity is paid for out of
+/// what the contacts have dissipated so far: displacements that would cost more are shortened, so
+/// the total energy never exceeds what it would have been without dissipation. Work against other
+/// forces (springs, say) is not accounted for.
 template <int Dim>
 requires SpaceDimension<Dim>
 class GapCorrection {
@@ -104,7 +105,6 @@ class GapCorrection {
             bodies.position[i] += share * displacement_[i].linear;
             const AngularVector<Dim> turn = share * displacement_[i].angular;
             bodies.rotation[i] = (Rotation<Dim>::exp(turn) * bodies.rotation[i]).normalized();
-            bodies.spin[i] = bodies.rotation[i].spin_body(data.end[i].angular);
         }
         data.correction_work = share * lift;
         budget_ -= data.correction_work;
