@@ -29,6 +29,8 @@ struct NoGapCorrection {
 ///         using Solver = Automatic<3, Law>;
 ///     };
 ///     Simulation<3, Mine> sim(...);
+///
+/// (In a template for both dimensions the law is `typename SimulationTypes<Dim>::Law`.)
 template <int Dim>
 requires SpaceDimension<Dim>
 struct SimulationTypes {
