@@ -23,12 +23,12 @@ CEILINGS = {
     "small_program":        Ceiling(4.0, 10, 1024),
     "01_ball_drop":         Ceiling(5.4, 16, 1024),
     # with --full alone
-    "02_block_on_incline":  Ceiling(6, 18, 1024),
-    "03_own_shape":         Ceiling(6, 18, 1024),
-    "04_own_law":           Ceiling(6, 19, 1024),
-    "05_own_solver":        Ceiling(6, 20, 1024),
-    "06_watch_convergence": Ceiling(4, 6, 1024),
-    "pile":                 Ceiling(20, 60, 1600),  # both dimensions, several solvers, pictures and files
+    "02_block_on_incline":  Ceiling(5.8, 18, 1024),
+    "03_own_shape":         Ceiling(5.9, 18, 1024),
+    "04_own_law":           Ceiling(6.6, 19, 1024),
+    "05_own_solver":        Ceiling(5.5, 20, 1024),
+    "06_watch_convergence": Ceiling(2.5, 6, 1024),
+    "pile":                 Ceiling(12.3, 60, 1600),  # both dimensions, several solvers, pictures and files
 }
 DEFAULT = ("talus.hpp", "small_program", "01_ball_drop")
 

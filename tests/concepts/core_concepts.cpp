@@ -31,4 +31,15 @@ static_assert(!std::is_convertible_v<talus::Pose<2>, talus::Pose<3>>);
 static_assert(!std::is_convertible_v<talus::Rotation<2>, talus::Rotation<3>>);
 static_assert(!std::is_convertible_v<double, talus::Rotation<2>>, "an angle is named as one");
 
+/// Whether a matrix takes such a factor and such a divisor.
+template <class M, class S>
+concept Scales = requires(const M& m, S s) {
+    m* s;
+    s* m;
+    m / s;
+};
+
+static_assert(Scales<talus::Vector<3>, double> && Scales<talus::Vector<3>, int>);
+static_assert(!Scales<talus::SmallMatrix<3, 1, int>, double>, "halves of whole numbers are zero");
+
 }  // namespace

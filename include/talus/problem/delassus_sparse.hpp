@@ -113,6 +113,7 @@ class DelassusSparse {
     std::vector<std::size_t> diagonal_;  ///< place of W_ii in value_
     std::vector<Vector<Rows>> impulse_;
 };
+
 template <int Rows>
 requires ContactRows<Rows>
 template <int Dim>
