@@ -23,6 +23,7 @@ endforeach()
 foreach(part IN ITEMS space plane)
   talus_compiled_source(stepping/simulation ${part})
 endforeach()
+talus_compiled_source(problem/matrix_problem functions)
 
 add_library(talus_compiled STATIC ${talus_compiled_sources})
 add_library(talus::compiled ALIAS talus_compiled)

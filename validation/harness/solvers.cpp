@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "solvers.hpp"
 
-#include <talus/solver/solver_registry.hpp>
-
 #include "world.hpp"
-
-template struct talus::SolverRegistry<2, validation::Law<2>>;
-template struct talus::SolverRegistry<3, validation::Law<3>>;
 
 std::vector<std::string> validation::solver_names() {
     std::vector<std::string> names;

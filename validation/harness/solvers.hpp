@@ -5,6 +5,6 @@
 
 #include "setting.hpp"
 
-// Compiled in solvers.cpp.
+// Compiled in solvers_plane.cpp and solvers_space.cpp.
 extern template struct talus::SolverRegistry<2, validation::Law<2>>;
 extern template struct talus::SolverRegistry<3, validation::Law<3>>;

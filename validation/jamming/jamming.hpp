@@ -76,8 +76,12 @@ talus::ImpulseCache<Dim> random_start(const Equilibrium<Dim>& shown, double mu,
 /// Friction that impulses at zero load need: those with G^T r = 0, which two contacts of a planar
 /// body have one of.
 inline double self_stress_friction(const PlanarBody& body) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(body.g().transpose(), Eigen::ComputeFullV);
-    const Eigen::Vector4d r = svd.matrixV().col(3);
+    const Eigen::Matrix<double, 4, 3> g = body.g();
+    V<3> row[4];
+    for (int i = 0; i < 4; ++i) row[i] = g.row(i).transpose();
+    // Cramer's rule: the minors of three rows, with alternating signs.
+    const auto minor = [&](int i, int j, int k) { return row[i].dot(row[j].cross(row[k])); };
+    const double r[] = {minor(1, 2, 3), -minor(0, 2, 3), minor(0, 1, 3), -minor(0, 1, 2)};
     // Both contacts push, or (with the other sign of r) the self-stress would be tension.
     if (!(r[0] * r[2] > 0.0)) throw std::logic_error("no self-stress in compression");
     return std::max(std::abs(r[1] / r[0]), std::abs(r[3] / r[2]));

@@ -3,8 +3,8 @@
 
 #include <talus/core/instantiate.hpp>
 #include <talus/core/symmetric_eigen.hpp>
+#include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/contact_problem.hpp>
-#include <talus/problem/matrix_problem.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

@@ -4,6 +4,7 @@
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/law/concepts.hpp>
+#include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 
 #include <Eigen/Core>
@@ -19,17 +20,6 @@
 #endif
 
 namespace talus {
-
-/// A contact problem given by its Delassus operator,  u = W r + free_velocity: what FCLib calls
-/// local. W is used as it is, also where a file's is not exactly symmetric.
-template <int Rows, ContactLaw<Rows> Law>
-struct AssembledProblem {
-    DelassusSparse<Rows> delassus;
-    std::vector<Vector<Rows>> free_velocity;  ///< FCLib's q [m/s]
-    std::vector<Law> laws;
-
-    std::size_t contact_count() const { return free_velocity.size(); }
-};
 
 /// A contact problem of any mechanical system,  M v = H r + f,  u = H^T v + w: what FCLib calls
 /// global.

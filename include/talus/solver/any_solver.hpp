@@ -3,8 +3,8 @@
 
 #include <talus/core/instantiate.hpp>
 #include <talus/law/coulomb.hpp>
+#include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/body_map.hpp>
-#include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/concepts.hpp>
 
 #include <concepts>

@@ -4,7 +4,7 @@
 #include <talus/core/check.hpp>
 #include <talus/core/input.hpp>
 #include <talus/law/cone_of.hpp>
-#include <talus/problem/matrix_problem.hpp>
+#include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/residual.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/cones/cone_system.hpp>

@@ -4,9 +4,9 @@
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/law/coulomb.hpp>
+#include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/body_map.hpp>
 #include <talus/problem/delassus_product.hpp>
-#include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/sweeps/sweep_kernel.hpp>
 

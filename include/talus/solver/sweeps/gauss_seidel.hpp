@@ -6,8 +6,8 @@
 #include <talus/core/instantiate.hpp>
 #include <talus/core/observer.hpp>
 #include <talus/law/coulomb.hpp>
+#include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/delassus_product.hpp>
-#include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/sweeps/sweep_kernel.hpp>
 #include <talus/solver/sweeps/sweep_order.hpp>
