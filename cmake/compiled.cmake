@@ -3,27 +3,27 @@
 # something links it; an installation has it if TALUS_BUILD_COMPILED is ON.
 option(TALUS_BUILD_COMPILED "Build and install talus::compiled, the common templates compiled once" OFF)
 
-# talus_compiled_source(HEADER PART): a source with what a header has for plane, space or functions.
+# talus_compiled_source(PART HEADER...): a source with what these headers have for plane, space or
+# functions.
 set(talus_compiled_sources)
-function(talus_compiled_source header part)
-  get_filename_component(name ${header} NAME)
+function(talus_compiled_source part)
+  list(GET ARGN 0 first)
+  get_filename_component(name ${first} NAME)
   set(source ${PROJECT_BINARY_DIR}/compiled/${name}_${part}.cpp)
   string(TOUPPER ${part} macro)
-  file(CONFIGURE OUTPUT ${source} CONTENT
-"// SPDX-License-Identifier: BSL-1.0
-#define TALUS_COMPILE_${macro}
-#include <talus/${header}.hpp>
-")
+  set(content "// SPDX-License-Identifier: BSL-1.0\n#define TALUS_COMPILE_${macro}\n")
+  foreach(header IN LISTS ARGN)
+    string(APPEND content "#include <talus/${header}.hpp>\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${source} CONTENT "${content}")
   set(talus_compiled_sources ${talus_compiled_sources} ${source} PARENT_SCOPE)
 endfunction()
-# The longest first.
-foreach(part IN ITEMS space plane functions)
-  talus_compiled_source(solver/solver_registry ${part})
-endforeach()
-foreach(part IN ITEMS space plane)
-  talus_compiled_source(stepping/simulation ${part})
-endforeach()
-talus_compiled_source(problem/matrix_problem functions)
+# The longest first. All functions are in one source: it also says what the library is compiled for.
+talus_compiled_source(space solver/solver_registry)
+talus_compiled_source(plane solver/solver_registry)
+talus_compiled_source(functions solver/solver_registry problem/matrix_problem)
+talus_compiled_source(space stepping/simulation)
+talus_compiled_source(plane stepping/simulation)
 
 add_library(talus_compiled STATIC ${talus_compiled_sources})
 add_library(talus::compiled ALIAS talus_compiled)
