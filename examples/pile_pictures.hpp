@@ -75,7 +75,7 @@ Snapshot<Dim> snapshot(const Simulation& sim, const talus::Scene<Dim>& scene) {
                             bodies.velocity[i],
                             scene.grains[k].radius,
                             load[i] / data.h,
-                            world_corners<Dim>(sim.system().shapes[i], bodies.pose(i)),
+                            world_corners<Dim>(sim.system().shapes()[i], bodies.pose(i)),
                             {}});
         if constexpr (Dim == 3) s.grains.back().faces = talus::hull_faces(s.grains.back().corners);
     }

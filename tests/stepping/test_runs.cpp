@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(balls_confined_to_a_plane_move_as_discs) {
         space.system().add_obstacle(talus::HalfSpace<3>{lift(normal), offset});
     const auto& b2 = flat.system().bodies;
     for (std::size_t i = 3; i < b2.count(); ++i)
-        space.system().add(talus::Ball<3>{flat.system().bounding_radius[i] / std::sqrt(2.0)},
+        space.system().add(talus::Ball<3>{flat.system().bounding_radius()[i] / std::sqrt(2.0)},
                            talus::Inertia<3>{b2.mass(i), V<3>::Constant(b2.inertia(i)[0])},
                            {lift(b2.position[i]), {}});
     double apart = 0.0;

@@ -26,7 +26,7 @@ double share_below(int dim, double r, double over) {
 template <int Dim>
 Averages averages(const World<Dim>& world, const Deposit<Dim>& deposit) {
     const auto& bodies = world.bodies();
-    const auto& shapes = world.system().shapes;
+    const auto& shapes = world.system().shapes();
     std::vector<double> heights;
     for (std::size_t i = Deposit<Dim>::walls; i < bodies.count(); ++i)
         heights.push_back(bodies.position[i][Dim - 1]);

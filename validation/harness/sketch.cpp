@@ -89,7 +89,7 @@ class Picture {
 
   private:
     void include(std::size_t i) {
-        const auto box = world_.system().shapes[i].aabb(bodies_.pose(i));
+        const auto box = world_.system().shapes()[i].aabb(bodies_.pose(i));
         if (!box.bounded()) return;
         frame_.include(flat<Dim>(box.low));
         frame_.include(flat<Dim>(box.high));
@@ -102,7 +102,7 @@ class Picture {
                                     .round = true};
         const auto pose = bodies_.pose(i);
         std::visit([&](const auto& shape) { draw_shape(svg, shape, pose, style); },
-                   world_.system().shapes[i].held());
+                   world_.system().shapes()[i].held());
     }
     void draw_shape(talus::Svg& svg, const talus::Ball<Dim>& ball, const talus::Pose<Dim>& pose,
                     const talus::SvgStyle& style) const {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,11 +23,16 @@ class ContactDetection {
   public:
     /// Finds every contact with gap <= reach[a] + reach[b]. `radius[i]` bounds body i about its
     /// centre, infinite for unbounded shapes; `skin` is the widening of new boxes: a larger one
-    /// gives more candidates, kept for longer. All in [m].
-    void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes,
+    /// gives more candidates, kept for longer. All in [m]. `version` is another number whenever
+    /// some shape is another.
+    void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, std::uint64_t version,
                 std::span<const double> radius, double skin, std::span<const double> reach,
                 ContactSet<Dim>& contacts) {
-        if (left_a_box(bodies, radius, reach)) find_candidates(bodies, shapes, skin, reach);
+        if (version != version_ || left_a_box(bodies, radius, reach)) {
+            box_.clear();  // so that a failure on the way leaves nothing that looks found
+            find_candidates(bodies, shapes, skin, reach);
+            version_ = version;
+        }
         contacts.clear();
         for (const CandidatePair& pair : candidates_) {
             const auto a = static_cast<std::size_t>(pair.a);
@@ -41,9 +47,6 @@ class ContactDetection {
         }
     }
 
-    /// Forgets the candidates: to be called when bodies were placed anew or shapes changed.
-    void reset() { box_.clear(); }
-
     std::span<const CandidatePair> candidates() const { return candidates_; }
 
   private:
@@ -51,6 +54,7 @@ class ContactDetection {
                     std::span<const double> reach) const {
         if (box_.size() != reach.size()) return true;
         for (std::size_t i = 0; i < reach.size(); ++i) {
+            if (free_[i] == bodies.is_obstacle(i)) return true;
             const double turn = bodies.rotation[i].distance(rotation_[i]);
             const double way =
                 (bodies.position[i] - position_[i]).norm() + (turn > 0.0 ? turn * radius[i] : 0.0);
@@ -64,9 +68,11 @@ class ContactDetection {
         const std::size_t n = bodies.count();
         box_.resize(n);
         room_.resize(n);
+        free_.resize(n);
         position_ = bodies.position;
         rotation_ = bodies.rotation;
         for (std::size_t i = 0; i < n; ++i) {
+            free_[i] = !bodies.is_obstacle(i);
             room_[i] = reach[i] + 0.5 * skin;
             box_[i] = shapes[i].aabb(bodies.pose(i)).expanded(room_[i]);
         }
@@ -81,6 +87,8 @@ class ContactDetection {
     std::vector<Vector<Dim>> position_;    // when the boxes were made
     std::vector<Rotation<Dim>> rotation_;  // when the boxes were made
     std::vector<double> room_;             // widening of each box
+    std::vector<bool> free_;               // no obstacle; two obstacles are no pair
+    std::uint64_t version_ = 0;            // of the shapes
     std::vector<CandidatePair> candidates_;
     std::vector<ContactPoint<Dim>> points_;
 };

@@ -66,15 +66,17 @@ concept ScalarFor = std::floating_point<T> && std::is_arithmetic_v<S>;
 /// It remains an Eigen matrix: it takes and gives Eigen's expressions, and what is not declared
 /// here (blocks, decompositions, arrays, comma initialisation) is Eigen's own, lazy as ever: a
 /// block of a result refers to a value that is gone, so `auto h = (a + b).head<2>();` needs an
-/// `.eval()` where Eigen's expression would not. The default constructor leaves the components as
-/// they are, like Eigen's.
+/// `.eval()` where Eigen's expression would not. Unlike Eigen's it is zero unless told otherwise:
+/// in `Twist{v, {}}` and `Pose{x, {}}` empty braces mean what they seem to mean.
 template <int Rows, int Cols, class Real = double>
 class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
   public:
     using Base = Eigen::Matrix<Real, Rows, Cols>;
     using Transposed = SmallMatrix<Cols, Rows, Real>;
     using Base::Base;
-    SmallMatrix() = default;
+    SmallMatrix() {
+        each([&](int i) { at(i) = Real(0); });
+    }
     SmallMatrix(const Base& other) : Base(other) {}
     /// Any expression of Eigen's, evaluated.
     template <class Derived>

@@ -4,9 +4,12 @@
 #include <talus/core/check.hpp>
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
+#include <talus/problem/islands.hpp>
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -99,6 +102,32 @@ class DelassusProduct {
         for (std::size_t i = 0; i < contact_count(); ++i) u[i] = velocity(row(i), scratch_);
     }
 
+    /// Writes to label[i] a number below contact_count() that contact i shares with the contacts
+    /// that chains of free bodies connect with it, and with no other.
+    void islands(std::span<std::uint32_t> label) const {
+        const auto free = [&](BodyIndex k) {
+            const Body& x = bodies_[static_cast<std::size_t>(k)];
+            if constexpr (std::same_as<Inertia, double>)
+                return x.inverse_mass > 0.0 || x.inverse_inertia > 0.0;
+            else
+                return x.inverse_mass > 0.0 || !x.inverse_inertia.is_zero();
+        };
+        islands_.reset(bodies_.size());
+        for (std::size_t i = 0; i < contact_count(); ++i)
+            if (free(row(i).a) && free(row(i).b))
+                islands_.join(static_cast<std::size_t>(row(i).a),
+                              static_cast<std::size_t>(row(i).b));
+        first_contact_.assign(bodies_.size(), none);
+        for (std::size_t i = 0; i < contact_count(); ++i) {
+            label[i] = static_cast<std::uint32_t>(i);
+            const BodyIndex body = free(row(i).a) ? row(i).a : row(i).b;
+            if (!free(body)) continue;
+            std::uint32_t& first = first_contact_[islands_.root(static_cast<std::size_t>(body))];
+            if (first == none) first = label[i];
+            label[i] = first;
+        }
+    }
+
     /// Velocities of the impulses `r`, computed afresh.
     void start(std::span<const Vector<Dim>> r) {
         TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
@@ -177,9 +206,12 @@ class DelassusProduct {
         for (std::size_t i = 0; i < contact_count(); ++i) add(row(i), r[i], bodies);
     }
 
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     const ContactJacobian<Dim>* jacobian_ = nullptr;
     std::vector<Body> bodies_;
     mutable std::vector<Body> scratch_;
+    mutable Islands islands_;
+    mutable std::vector<std::uint32_t> first_contact_;
 };
 static_assert(SweepableDelassus<DelassusProduct<2>, 2> && SweepableDelassus<DelassusProduct<3>, 3>);
 static_assert(SweepableDelassus<DelassusProduct<3, double>, 3>);

@@ -6,6 +6,7 @@
 #include <talus/core/instantiate.hpp>
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
+#include <talus/problem/islands.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -66,6 +67,16 @@ class DelassusSparse {
     void multiply(std::span<const Vector<Rows>> r, std::span<Vector<Rows>> u) const {
         TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
         for (std::size_t i = 0; i < contact_count(); ++i) u[i] = row_times(i, r);
+    }
+    /// Writes to label[i] a number below contact_count() that contact i shares with those that
+    /// chains of blocks which are not zero connect with it, and with no other.
+    void islands(std::span<std::uint32_t> label) const {
+        Islands islands;
+        islands.reset(contact_count());
+        for (std::size_t i = 0; i < contact_count(); ++i)
+            for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
+                if (!value_[k].is_zero()) islands.join(i, column_[k]);
+        for (std::size_t i = 0; i < contact_count(); ++i) label[i] = islands.root(i);
     }
     /// Takes the impulses in.
     void start(std::span<const Vector<Rows>> r) {

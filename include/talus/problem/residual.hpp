@@ -9,46 +9,133 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace talus {
 
-/// How far impulses are from obeying all laws.
+/// How far impulses are from obeying all laws: in the whole, and at the worst contact.
 struct Residual {
-    double relative = 0.0;  ///< the measure of ResidualMeasure [-]; NaN or infinity, see there
-    std::size_t worst_contact = 0;  ///< the contact with the largest share
-    double worst_share = 0.0;       ///< its error over the root mean square scale of a contact [-]
+    double relative = 0.0;  ///< eta of ResidualMeasure [-]; NaN or infinity, see there
+    /// zeta of ResidualMeasure: the worst contact, in the scale of its own island [-].
+    double contact = 0.0;
+    std::size_t worst_contact = 0;  ///< where that is
+    /// The largest velocity by which a contact's law is violated [m/s]: no overlap grows faster for
+    /// the residual's sake.
+    double velocity = 0.0;
+    double worst_share = 0.0;  ///< largest error over the root mean square scale of a contact [-]
 
+    /// What a tolerance is held against: the larger of eta and zeta.
+    double largest() const { return contact > relative ? contact : relative; }
     bool finite() const { return std::isfinite(relative); }
+};
+
+/// The scale V of each contact, and the worst contact by it: the part of ResidualMeasure that makes
+/// zeta.
+class ContactScales {
+  public:
+    /// The islands of an operator, which may say what hangs together by `islands(label)`; otherwise
+    /// it is one island.
+    template <class W>
+    void find_islands(const W& w) {
+        const std::size_t n = w.contact_count();
+        label_.assign(n, 0);
+        if constexpr (requires(std::span<std::uint32_t> label) { w.islands(label); })
+            w.islands(std::span<std::uint32_t>(label_));
+        // Labels without gaps, in the order of their first contacts.
+        index_.assign(n, unseen);
+        std::uint32_t count = 0;
+        for (std::uint32_t& label : label_) {
+            if (index_[label] == unseen) index_[label] = count++;
+            label = index_[label];
+        }
+        island_.assign(count, Island{});
+    }
+    std::size_t contact_count() const { return label_.size(); }
+    /// The velocity by which contact i violates its law without any impulse, squared.
+    void see_violation(std::size_t i, double square) {
+        Island& island = island_[label_[i]];
+        island.violated = std::max(island.violated, std::sqrt(square));
+    }
+
+    /// Before the contacts are judged.
+    void begin() {
+        for (Island& island : island_) island.largest = island.error = 0.0;
+    }
+    /// Contact i: squares of the velocity by which its law is violated and of r_i / rho_i.
+    void see(std::size_t i, double error, double largest) {
+        Island& island = island_[label_[i]];
+        if (largest > island.largest) island.largest = largest;
+        if (!(error > island.error)) return;
+        island.error = error;
+        island.worst = i;
+    }
+    /// Fills `contact`, `worst_contact` and `velocity`.
+    void judge(Residual& result) const {
+        constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
+        for (const Island& island : island_) {
+            const double error = std::sqrt(island.error);
+            result.velocity = std::max(result.velocity, error);
+            const double counted = error - rounding * (std::sqrt(island.largest) + island.violated);
+            if (!(counted > 0.0)) continue;
+            const double zeta = island.violated > 0.0 ? counted / island.violated : 1.0;
+            if (!(zeta > result.contact)) continue;
+            result.contact = zeta;
+            result.worst_contact = island.worst;
+        }
+    }
+
+  private:
+    struct Island {
+        double violated = 0.0;  ///< V [m/s]
+        double error = 0.0;     ///< square of the largest velocity of violation [m^2/s^2]
+        double largest = 0.0;   ///< of the squares of r_c / rho_c [m^2/s^2]
+        std::size_t worst = 0;  ///< contact
+    };
+    static constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> label_;  ///< island of each contact
+    std::vector<std::uint32_t> index_;
+    std::vector<Island> island_;
 };
 
 /// The one measure that every solver is judged by. With u = W r + u_free,
 ///
-///   eta = || D^-1/2 (r - f) || / max( || D^-1/2 r ||, || D^1/2 u_free || ),   D = diag(rho_c),
+///   eta  = || D^-1/2 (r - f) || / max( || D^-1/2 r ||, || D^1/2 u_free || ),   D = diag(rho_c),
+///   zeta = max_c  | r_c - f_c | / ( rho_c V_c ),
 ///
 /// where f_c = natural_map(u_c, r_c, rho_c) of the contact's own exact law and rho_c [kg] is the
-/// effective mass of the contact, Rows / trace(W_cc). Norms are Euclidean over all contacts.
+/// effective mass of the contact, Rows / trace(W_cc). Norms of eta are Euclidean over all contacts.
 ///
-/// Why so. (1) rho_c is the step that makes r_c - rho_c u_c a sum of comparable terms, so that f is
-/// neither blind to r nor to u. (2) D^-1/2 r and D^1/2 u both are square roots of energies, so that
-/// light and heavy contacts weigh alike and the quotient is the same in all units of length, mass
-/// and time: grains of a micrometre and of a metre converge alike. (3) Both norms grow alike when
-/// the problem is duplicated; `worst_share` keeps one bad contact among many visible. (4) The scale
-/// takes the larger of the impulses and of the velocities to be stopped: a heavily loaded system
-/// at rest and a fast one without load both have one.
+/// Why eta so. (1) rho_c is the step that makes r_c - rho_c u_c a sum of comparable terms, so that
+/// f is neither blind to r nor to u. (2) D^-1/2 r and D^1/2 u both are square roots of energies, so
+/// that light and heavy contacts weigh alike and the quotient is the same in all units of length,
+/// mass and time: grains of a micrometre and of a metre converge alike. (3) Both norms grow alike
+/// when the problem is duplicated. (4) The scale takes the larger of the impulses and of the
+/// velocities to be stopped: a heavily loaded system at rest and a fast one without load both have
+/// one.
 ///
-/// Conventions. 0/0 is 0. If the scale is 0 and the error is not (a law that attracts), eta is 1.
-/// A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Rows / trace of
-/// the mean block (1 kg if all are 0), so that a velocity that no impulse can mend stays in eta.
-/// Rows of different units (with rolling friction) need a length that makes them one, see
+/// Why zeta beside it. An error of a velocity v costs eta only v sqrt(rho_c): where a light grain
+/// carries a heavy one, rho_c is the light one's, and the heavy one may fall freely with an eta of
+/// the root of the ratio of masses. |r_c - f_c| / rho_c is the velocity by which contact c violates
+/// its law. V_c is the largest such velocity that there would be without any impulse, among the
+/// contacts of its island: those that chains of free bodies connect with it. For bodies at rest
+/// under gravity V is h g; what happens elsewhere, however fast, hides nothing. What the rounding
+/// of the largest velocity r_c / rho_c of the island explains is not counted as an error.
+///
+/// Conventions. 0/0 is 0. If the scale is 0 and the error is not (a law that attracts), eta and
+/// zeta are 1. A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Rows
+/// / trace of the mean block (1 kg if all are 0), so that a velocity that no impulse can mend
+/// stays. Rows of different units (with rolling friction) need a length that makes them one, see
 /// RollingCoulomb: sums over the rows of a contact, as here, are of one unit or of none.
 /// Whatever is not finite in r, u, f or u_free makes eta not finite.
 template <int Rows>
 class ResidualMeasure {
   public:
-    /// Takes the effective masses from W. Allocates only for a larger problem than any before.
+    /// Takes the effective masses from W: enough for effective_mass and scale. Allocates only for a
+    /// larger problem than any before.
     template <DelassusOperator<Rows> W>
     void prepare(const W& w) {
         rho_.resize(w.contact_count());
@@ -65,9 +152,25 @@ class ResidualMeasure {
         for (double& rho : rho_)
             if (std::isinf(rho)) rho = spare;
     }
+    /// Takes also what zeta needs: islands, and the velocities V of their contacts. An operator
+    /// that does not say what hangs together is one island.
+    template <DelassusOperator<Rows> W, ContactLaw<Rows> Law>
+    void prepare(const W& w, std::span<const Vector<Rows>> free_velocity,
+                 std::span<const Law> laws) {
+        prepare(w);
+        scales_.find_islands(w);
+        for (std::size_t i = 0; i < rho_.size(); ++i) {
+            const Vector<Rows> f =
+                laws[i].natural_map(free_velocity[i], Vector<Rows>::Zero(), rho_[i]);
+            scales_.see_violation(i, f.squaredNorm() / (rho_[i] * rho_[i]));
+        }
+    }
 
     /// rho_c [kg].
     double effective_mass(std::size_t contact) const { return rho_[contact]; }
+
+    /// What zeta is made with.
+    const ContactScales& scales() const { return scales_; }
 
     /// max( || D^-1/2 r ||, || D^1/2 u_free || ) [sqrt(J)].
     double scale(std::span<const Vector<Rows>> free_velocity,
@@ -81,23 +184,24 @@ class ResidualMeasure {
         return std::sqrt(impulses > velocities || std::isnan(impulses) ? impulses : velocities);
     }
 
-    /// The measure at r, where `velocity(i)` gives row i of W r.
+    /// The measure at r, where `velocity(i)` gives row i of W r, of the problem that `prepare` was
+    /// given.
     template <ContactLaw<Rows> Law, class Velocity>
     Residual evaluate(std::span<const Vector<Rows>> free_velocity, std::span<const Law> laws,
-                      std::span<const Vector<Rows>> r, Velocity&& velocity) const {
+                      std::span<const Vector<Rows>> r, Velocity&& velocity) {
         TALUS_CHECK(r.size() == rho_.size(), "one impulse per contact");
+        TALUS_CHECK(scales_.contact_count() == rho_.size(), "prepared with the free velocities");
         Residual result;
         double sum = 0.0, worst = 0.0;
+        scales_.begin();
         for (std::size_t i = 0; i < rho_.size(); ++i) {
             const Vector<Rows> u = velocity(i) + free_velocity[i];
             const Vector<Rows> off = r[i] - laws[i].natural_map(u, r[i], rho_[i]);
             // A law may map a velocity that is not finite to a finite impulse (max(0, -inf)).
             const double share = off.squaredNorm() / rho_[i] + 0.0 * u.sum();
             sum += share;
-            if (share > worst || std::isnan(share)) {
-                worst = share;
-                result.worst_contact = i;
-            }
+            if (share > worst || std::isnan(share)) worst = share;
+            scales_.see(i, share / rho_[i], r[i].squaredNorm() / (rho_[i] * rho_[i]));
         }
         const double scale = this->scale(free_velocity, r);
         if (sum == 0.0 && std::isfinite(scale)) return result;
@@ -105,11 +209,13 @@ class ResidualMeasure {
         result.relative = no_scale ? 1.0 + 0.0 * sum : std::sqrt(sum) / scale + 0.0 * scale;
         const double count = static_cast<double>(rho_.size());
         result.worst_share = no_scale ? 1.0 : std::sqrt(worst * count) / scale;
+        scales_.judge(result);
         return result;
     }
 
   private:
     std::vector<double> rho_;
+    ContactScales scales_;
 };
 
 /// The measure for a whole problem at impulses r, from scratch. Allocates; solvers keep a
@@ -122,7 +228,7 @@ Residual residual(const ContactProblem<Dim, Law>& problem, std::span<const Vecto
                           std::to_string(problem.contact_count()));
     DelassusProduct<Dim> w(problem.jacobian, problem.inverse_mass);
     ResidualMeasure<Dim> measure;
-    measure.prepare(w);
+    measure.template prepare<DelassusProduct<Dim>, Law>(w, problem.free_velocity, problem.laws);
     w.start(r);
     return measure.template evaluate<Law>(problem.free_velocity, problem.laws, r,
                                           [&](std::size_t i) { return w.velocity(i); });

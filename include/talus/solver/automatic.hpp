@@ -86,12 +86,27 @@ class Automatic {
         require_non_negative("max_factor_bytes", params.max_factor_bytes);
         report_ = {};
         let_engines_work(task);
-        if (report_.status != SolveStatus::not_finite)
+        if (report_.status != SolveStatus::not_finite) {
             memory_.return_to_best(task.r, report_.residual);
+            name_worst_contact(task);
+        }
         // An engine that gained nothing leaves samples of what it tried at the end.
         if (report_.history.back().residual != report_.residual)
             report_.history.push_back({report_.iterations, report_.residual});
         return report_;
+    }
+
+    /// Of the impulses returned, which need not be those measured last.
+    template <class T>
+    void name_worst_contact(T& task) {
+        measure_.template prepare<std::remove_reference_t<decltype(task.w)>, Law>(
+            task.w, task.free_velocity, task.laws);
+        task.w.start(task.r);
+        const Residual now =
+            measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
+                                            [&](std::size_t i) { return task.w.velocity(i); });
+        report_.velocity_error = now.velocity;
+        report_.worst_contact = now.worst_contact;
     }
 
     template <class T>
@@ -175,6 +190,8 @@ class Automatic {
         report_.add_stage(name, part, part.residual);
         report_.status = part.status;
         report_.residual = part.residual;
+        report_.velocity_error = part.velocity_error;
+        report_.worst_contact = part.worst_contact;
         sweeps_left_ -= sweeps * part.iterations;
         return is_over(task);
     }
@@ -244,13 +261,10 @@ class Automatic {
         team_.to_impulses(task.r);
         velocity_.resize(task.r.size());
         task.w.multiply(task.r, velocity_);
-        const double residual =
-            measure_
-                .template evaluate<Law>(task.free_velocity, task.laws, task.r,
-                                        [&](std::size_t i) { return velocity_[i]; })
-                .relative;
-        if (residual <= report_.residual)
-            report_.residual = residual;
+        const Residual residual = measure_.template evaluate<Law>(
+            task.free_velocity, task.laws, task.r, [&](std::size_t i) { return velocity_[i]; });
+        if (residual.largest() <= report_.residual)
+            report_.take(residual);
         else
             memory_.return_to_kept(task.r);
         report_.history.push_back({report_.iterations, report_.residual});

@@ -16,6 +16,7 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -55,7 +56,8 @@ class ConeTeam<Dim, Law> {
     bool take(T& task, ResidualMeasure<Dim>& measure, double max_bytes) {
         auto cones = cones_of<Dim>(task.laws);
         if (!cones) return false;
-        measure.prepare(task.w);
+        measure.template prepare<std::remove_reference_t<decltype(task.w)>, Law>(
+            task.w, task.free_velocity, task.laws);
         assign(task, std::move(*cones), measure);
         if (system_.factorization_bytes() > max_bytes) factorizations_left_ = 0;
         return true;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/problem/residual.hpp>
+
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -35,11 +38,20 @@ struct SolveStage {
 /// at the impulses returned.
 struct SolveReport {
     SolveStatus status = SolveStatus::iteration_limit;
-    int iterations = 0;                   ///< sweeps, factorisations...: what the solver counts
-    double residual = 0.0;                ///< relative natural-map residual of the exact law [-]
+    int iterations = 0;  ///< sweeps, factorisations...: what the solver counts
+    /// Relative natural-map residual of the exact law, in the whole or at the worst contact, what
+    /// is larger [-].
+    double residual = 0.0;
+    double velocity_error = 0.0;    ///< largest velocity by which a contact violates its law [m/s]
+    std::size_t worst_contact = 0;  ///< the contact that is worst in the scale of its island
     std::vector<ResidualSample> history;  ///< residuals evaluated on the way, in order
     std::vector<SolveStage> stages;       ///< who did what, where several engines took part
 
+    void take(const Residual& r) {
+        residual = r.largest();
+        velocity_error = r.velocity;
+        worst_contact = r.worst_contact;
+    }
     /// Adds what an engine did that ended at `end`: its iterations, history and a stage.
     void add_stage(std::string_view engine, const SolveReport& part, double end) {
         for (const ResidualSample& s : part.history)

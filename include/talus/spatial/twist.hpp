@@ -7,8 +7,7 @@ namespace talus {
 
 /// Velocity of a rigid body, in world axes: of its centre, and its spin.
 ///
-/// `{v}` is the twist of a body that does not turn. Do not write `{v, {}}`: empty braces make an
-/// Eigen vector of undefined numbers.
+/// `{v}` is the twist of a body that does not turn.
 template <int Dim>
 requires SpaceDimension<Dim>
 struct Twist {

@@ -55,7 +55,7 @@ double largest_point_speed(const System<Dim, Law, ShapeType>& system,
     for (std::size_t i = 0; i < twists.size(); ++i) {
         if (system.bodies.is_obstacle(i)) continue;
         const double spin = twists[i].angular.norm();
-        const double turning = spin > 0.0 ? spin * system.bounding_radius[i] : 0.0;
+        const double turning = spin > 0.0 ? spin * system.bounding_radius()[i] : 0.0;
         largest = std::max(largest, twists[i].linear.norm() + turning);
     }
     return largest;

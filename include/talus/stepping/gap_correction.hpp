@@ -47,13 +47,17 @@ class GapCorrection {
     /// it sets.
     template <class Law, class ShapeType>
     void apply(System<Dim, Law, ShapeType>& system, StepData<Dim, Law>& data) {
-        budget_ += dissipated(data);
-        if (!(params.fraction > 0.0) || !pose_problem(data)) return;
+        const double earned = dissipated(data);
+        if (!(params.fraction > 0.0) || !pose_problem(data)) {
+            budget_ += earned;
+            return;
+        }
         impulse_.assign(data.contact_count(), Vector<Dim>::Zero());
         solver_.params = params.solver;
         solver_.solve(problem_, std::span<Vector<Dim>>(impulse_));
         displacement_.assign(system.bodies.count(), Twist<Dim>{});
         apply_impulses<Dim>(problem_.jacobian, problem_.inverse_mass, impulse_, displacement_);
+        budget_ += earned;  // from here on nothing throws
         displace(system, data);
     }
 

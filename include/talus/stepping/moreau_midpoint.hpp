@@ -8,8 +8,10 @@
 #include <talus/assembly/free_velocity.hpp>
 #include <talus/assembly/impulse_cache.hpp>
 #include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/dynamics/drift.hpp>
+#include <talus/dynamics/kept_state.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/stepping/gap_anticipating.hpp>
 #include <talus/stepping/step_data.hpp>
@@ -21,6 +23,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -37,7 +40,8 @@ struct StepParams {
     /// Gap below which a contact counts as closed [m]. 0 is the paper's rule; bodies placed
     /// "exactly" in touch need about 1e-10 of their size, against rounding.
     double contact_tolerance = 0.0;
-    Gyroscopic gyroscopic = Gyroscopic::explicit_term;  ///< the paper's
+    /// The paper's is explicit_term, with which a free top gains energy at every step.
+    Gyroscopic gyroscopic = Gyroscopic::momentum_preserving;
     /// Widening of the boxes of the broad phase, as a fraction of the mean bounding radius of the
     /// bodies. Affects speed alone.
     double skin = 0.2;
@@ -57,14 +61,21 @@ class MoreauMidpoint {
     using SystemType = System<Dim, Law, ShapeType>;
     using Data = StepData<Dim, Law>;
 
-    /// Advances `system` from t_begin by h; `data` receives what happened. Throws input_error, with
-    /// the system as it was, if a prescribed motion or an applied force is not finite.
+    /// Advances `system` from t_begin by h; `data` receives what happened. Throws input_error if a
+    /// prescribed motion or an applied force is not finite, and lets pass what a law, a force, a
+    /// motion, a shape, a hook or the solver throws: in each case with the bodies and the impulses
+    /// remembered as they were, bit for bit (`data` is then of no step).
     template <ContactSolver<Dim, Law> Solver>
     void step(SystemType& system, double t_begin, double h, const StepParams& params,
               Solver& solver, Data& data) {
-        pose_problem(system, t_begin, h, params, data);
-        data.report = solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
-        complete(system, data);
+        try {
+            pose_problem(system, t_begin, h, params, data);
+            data.report = solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
+            complete(system, data);
+        } catch (...) {
+            undo(system);
+            throw;
+        }
     }
 
     /// The first half of a step, up to what a solver is given: the problem, and in `data.impulse`
@@ -73,6 +84,9 @@ class MoreauMidpoint {
                       Data& data);
     /// The second half, from the impulses that a solver found.
     void complete(SystemType& system, Data& data);
+    /// Takes the last step, or what was done of it, back: bodies and remembered impulses are as
+    /// before it, bit for bit. Once for each step.
+    void undo(SystemType& system) noexcept;
 
     /// Called between the stages (step_hooks.hpp).
     Hooks& hooks() { return hooks_; }
@@ -80,21 +94,22 @@ class MoreauMidpoint {
     /// Impulses remembered for the warm start.
     ImpulseCache<Dim>& impulse_cache() { return cache_; }
     const ImpulseCache<Dim>& impulse_cache() const { return cache_; }
-    /// To be called when bodies were placed anew.
-    void reset_candidates() { detection_.reset(); }
 
   private:
     void move_to_midpoint(SystemType& system, Data& data);
     void detect(const SystemType& system, const StepParams& params, Data& data);
     void evaluate_forces(SystemType& system, const StepParams& params, Data& data);
     void assemble_contacts(const SystemType& system, const StepParams& params, Data& data);
-    static void require_finite_forces(SystemType& system, const Data& data);
+    static void require_shapes(const SystemType& system);
+    static void require_finite_forces(const Data& data);
     static void finish(SystemType& system, Data& data);
 
     ContactDetection<Dim, ShapeType, Broad> detection_;
-    ImpulseCache<Dim> cache_;
+    ImpulseCache<Dim> cache_, other_cache_;  // the other one: of the step under way, or before it
+    KeptState<Dim> before_;
+    bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
     std::vector<double> reach_;
-    double last_h_ = 0.0;
+    double last_h_ = 0.0, h_before_ = 0.0;
     [[no_unique_address]] Hooks hooks_;
 };
 
@@ -108,6 +123,10 @@ class MoreauMidpoint {
 
 TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
                             Data& data) {
+    kept_ = stored_ = false;
+    require_shapes(system);
+    before_.keep(system.bodies);
+    kept_ = true;
     data.t_begin = t_begin;
     data.h = h;
     data.correction_work = 0.0;
@@ -127,14 +146,32 @@ TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const 
 }
 
 TALUS_OF_STEP::complete(SystemType& system, Data& data) {
-    cache_.store(data.contacts, data.problem.jacobian, data.impulse);
-    last_h_ = data.h;
+    other_cache_.store(data.contacts, data.problem.jacobian, data.impulse);
     hooks_.solved(system, data);
     data.end = data.free;
     apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
     hooks_.velocities_known(system, data);
     finish(system, data);
     hooks_.finished(system, data);
+    std::swap(cache_, other_cache_);
+    h_before_ = std::exchange(last_h_, data.h);
+    stored_ = true;
+}
+
+TALUS_OF_STEP::undo(SystemType& system) noexcept {
+    if (kept_) before_.restore(system.bodies);
+    if (stored_) {
+        std::swap(cache_, other_cache_);
+        last_h_ = h_before_;
+    }
+    kept_ = stored_ = false;
+}
+
+TALUS_OF_STEP::require_shapes(const SystemType& system) {
+    if (system.shapes().size() != system.bodies.count())
+        throw input_error("number of shapes is " + std::to_string(system.shapes().size()) +
+                          ", but must be that of bodies, " + std::to_string(system.bodies.count()) +
+                          ": bodies are added by System::add and add_obstacle");
 }
 
 TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
@@ -151,10 +188,11 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
     reach_.assign(n, 0.5 * params.contact_tolerance);
     if (params.scheme == Scheme::gap_anticipating)
         for (std::size_t i = 0; i < n; ++i)
-            reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius[i],
+            reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
                                                  system.gravity, data.h);
-    detection_.detect(system.bodies, system.shapes, system.bounding_radius,
-                      params.skin * system.mean_bounding_radius(), reach_, data.contacts);
+    detection_.detect(system.bodies, system.shapes(), system.shapes_version(),
+                      system.bounding_radius(), params.skin * system.mean_bounding_radius(), reach_,
+                      data.contacts);
     if (params.scheme == Scheme::gap_anticipating)
         data.contacts.keep_if([&](std::size_t c) {
             return data.contacts.gap[c] <= params.contact_tolerance ||
@@ -168,7 +206,7 @@ TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Dat
     if (!system.forces.empty()) {
         data.applied.assign(n, Wrench<Dim>{});
         for (const auto& force : system.forces) force(data.t_mid(), bodies, data.applied);
-        require_finite_forces(system, data);
+        require_finite_forces(data);
     } else {
         data.applied.clear();
     }
@@ -186,12 +224,9 @@ TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Dat
     }
 }
 
-/// Goes back to the beginning of the step and throws if some applied force is not finite.
-TALUS_OF_STEP::require_finite_forces(SystemType& system, const Data& data) {
+TALUS_OF_STEP::require_finite_forces(const Data& data) {
     for (std::size_t i = 0; i < data.applied.size(); ++i) {
         if (data.applied[i].force.allFinite() && data.applied[i].torque.allFinite()) continue;
-        drift(system.bodies, -0.5 * data.h);
-        system.place_obstacles(data.t_begin);
         const std::string item = "applied force on body " + std::to_string(i);
         require_finite(item, data.applied[i].force);
         require_finite(item + ", its torque", data.applied[i].torque);

@@ -48,12 +48,16 @@ class Simulation {
     using Data = StepData<Dim, Law>;
 
     /// Throws input_error if a setting is out of range.
-    explicit Simulation(SystemType system, SimulationParams params = {}, Solver solver = Solver());
+    explicit Simulation(SystemType system, SimulationParams params = {},
+                        Solver solver = make_solver<Dim, Types>());
     /// One material.
-    explicit Simulation(const Law& law, SimulationParams params = {}, Solver solver = Solver())
+    explicit Simulation(const Law& law, SimulationParams params = {},
+                        Solver solver = make_solver<Dim, Types>())
         : Simulation(SystemType(law), params, std::move(solver)) {}
 
-    /// Advances by one step; returns what it did.
+    /// Advances by one step; returns what it did. Whatever is thrown on the way (by a law, a force,
+    /// a motion, a shape, the solver, for want of memory) leaves the simulation as it was, bit for
+    /// bit.
     const Data& step();
 
     /// Makes the steps that bring the clock to `duration` [s] from now, to the nearest step.
@@ -89,7 +93,7 @@ class Simulation {
     Solver solver_;
     MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks> integrator_;
     [[no_unique_address]] Correction gap_correction_;
-    Data data_;
+    Data data_, next_data_;  // the next one: of a step under way
     double time_start_ = 0.0;
     double time_ = 0.0;
     std::int64_t step_count_ = 0;
@@ -109,8 +113,14 @@ template <int Dim, class Types>
 requires SpaceDimension<Dim>
 auto Simulation<Dim, Types>::step() -> const Data& {
     gap_correction_.require_valid();
-    integrator_.step(system_, time_, params_.h, params_.step, solver_, data_);
-    gap_correction_.apply(system_, data_);
+    integrator_.step(system_, time_, params_.h, params_.step, solver_, next_data_);
+    try {
+        gap_correction_.apply(system_, next_data_);
+    } catch (...) {
+        integrator_.undo(system_);
+        throw;
+    }
+    std::swap(data_, next_data_);
     ++step_count_;
     time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
     return data_;
@@ -118,7 +128,7 @@ auto Simulation<Dim, Types>::step() -> const Data& {
 
 }  // namespace talus
 
-TALUS_IN_PLANE(class talus::GaussSeidel<2, talus::DefaultLaw<2>>)
+TALUS_IN_PLANE(class talus::AcceleratedGaussSeidel<2, talus::DefaultLaw<2>>)
 TALUS_IN_PLANE(class talus::Simulation<2>)
-TALUS_IN_SPACE(class talus::GaussSeidel<3, talus::DefaultLaw<3>>)
+TALUS_IN_SPACE(class talus::AcceleratedGaussSeidel<3, talus::DefaultLaw<3>>)
 TALUS_IN_SPACE(class talus::Simulation<3>)

@@ -14,8 +14,12 @@
 #include <talus/law/material_table.hpp>
 #include <talus/law/weighted_mean.hpp>
 
+#include <atomic>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,8 +42,6 @@ struct System {
     };
 
     Bodies<Dim> bodies;
-    std::vector<ShapeType> shapes;        ///< of each body, in the body's frame
-    std::vector<double> bounding_radius;  ///< of each shape about the body's centre [m]
     std::vector<Obstacle> obstacles;
     Vector<Dim> gravity = Vector<Dim>::Zero();  ///< acceleration [m/s^2]
     std::vector<ForceField<Dim>> forces;
@@ -81,6 +83,23 @@ struct System {
         return body;
     }
 
+    /// Shapes in the bodies' frames, one for each body.
+    std::span<const ShapeType> shapes() const { return shapes_; }
+    /// Of each shape about the body's centre; infinite where it has no bound [m].
+    std::span<const double> bounding_radius() const { return bounding_radius_; }
+    /// Gives a body another shape, in the body's frame; mass and inertia stay. Throws input_error
+    /// if there is no such body.
+    template <Shape<Dim> S>
+    void set_shape(BodyIndex body, const S& shape) {
+        if (body < 0 || static_cast<std::size_t>(body) >= shapes_.size())
+            detail::reject("body", body,
+                           "an index from 0 below " + std::to_string(shapes_.size()) +
+                               ", the number of bodies with shapes");
+        replace_shape(static_cast<std::size_t>(body), ShapeType(shape));
+    }
+    /// Another number whenever some shape is another; copies of a system share it.
+    std::uint64_t shapes_version() const { return shapes_version_; }
+
     /// Puts all obstacles where they are at time t [s].
     void place_obstacles(double t);
 
@@ -98,7 +117,13 @@ struct System {
   private:
     void check_material(MaterialIndex material) const;
     BodyIndex attach(BodyIndex body, ShapeType shape);
+    void replace_shape(std::size_t body, ShapeType shape);
+    static double radius_of(const ShapeType& shape);
+    static std::uint64_t new_version();
 
+    std::vector<ShapeType> shapes_;
+    std::vector<double> bounding_radius_;
+    std::uint64_t shapes_version_ = 0;
     double bounded_radius_sum_ = 0.0;
     std::size_t bounded_count_ = 0;
 };
@@ -124,15 +149,44 @@ void System<Dim, Law, ShapeType>::check_material(MaterialIndex material) const {
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(BodyIndex body,
                                                                            ShapeType shape) {
-    const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
-    bounding_radius.push_back(box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()
-                                            : std::numeric_limits<double>::infinity());
-    shapes.push_back(std::move(shape));
-    if (box.bounded() && !bodies.is_obstacle(static_cast<std::size_t>(body))) {
-        bounded_radius_sum_ += bounding_radius.back();
+    const double radius = radius_of(shape);
+    bounding_radius_.push_back(radius);
+    shapes_.push_back(std::move(shape));
+    shapes_version_ = new_version();
+    if (std::isfinite(radius) && !bodies.is_obstacle(static_cast<std::size_t>(body))) {
+        bounded_radius_sum_ += radius;
         ++bounded_count_;
     }
     return body;
+}
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::replace_shape(std::size_t body, ShapeType shape) {
+    const double radius = radius_of(shape);
+    shapes_[body] = std::move(shape);
+    const double old = std::exchange(bounding_radius_[body], radius);
+    shapes_version_ = new_version();
+    if (bodies.is_obstacle(body)) return;
+    bounded_radius_sum_ +=
+        (std::isfinite(radius) ? radius : 0.0) - (std::isfinite(old) ? old : 0.0);
+    bounded_count_ += std::isfinite(radius) ? 1 : 0;
+    bounded_count_ -= std::isfinite(old) ? 1 : 0;
+}
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+double System<Dim, Law, ShapeType>::radius_of(const ShapeType& shape) {
+    const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
+    return box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()
+                         : std::numeric_limits<double>::infinity();
+}
+
+/// Unlike any given before in this program, as a system may be replaced by another one.
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim> std::uint64_t System<Dim, Law, ShapeType>::new_version() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
 }
 
 }  // namespace talus

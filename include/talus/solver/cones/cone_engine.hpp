@@ -110,14 +110,12 @@ class ConeEngine {
                           std::span<const Law> laws, std::span<Vector<Dim>> r, double begin);
 
     template <class W>
-    double evaluate(const W& w, std::span<const Vector<Dim>> free_velocity,
-                    std::span<const Law> laws, std::span<const Vector<Dim>> r) {
+    Residual evaluate(const W& w, std::span<const Vector<Dim>> free_velocity,
+                      std::span<const Law> laws, std::span<const Vector<Dim>> r) {
         velocity_.resize(r.size());
         w.multiply(r, velocity_);
-        return measure_
-            .template evaluate<Law>(free_velocity, laws, r,
-                                    [&](std::size_t i) { return velocity_[i]; })
-            .relative;
+        return measure_.template evaluate<Law>(free_velocity, laws, r,
+                                               [&](std::size_t i) { return velocity_[i]; });
     }
     static void require_count(const char* item, std::size_t size, std::size_t contacts) {
         if (size != contacts)
@@ -169,10 +167,10 @@ const SolveReport& ConeEngine<Dim, Law, Engine>::run(const W& w,
     require_non_negative("tolerance", engine().params.tolerance);
     std::vector<FrictionCone<Dim>> cones = require_cones(laws);
     report_ = {};
-    measure_.prepare(w);
-    const double begin = evaluate(w, free_velocity, laws, r);
+    measure_.template prepare<W, Law>(w, free_velocity, laws);
+    report_.take(evaluate(w, free_velocity, laws, r));
+    const double begin = report_.residual;
     report_.history.push_back({0, begin});
-    report_.residual = begin;
     if (!std::isfinite(begin)) {
         report_.status = SolveStatus::not_finite;
         return report_;
@@ -210,9 +208,9 @@ void ConeEngine<Dim, Law, Engine>::improve_impulses(const W& w,
     if (!(best_residual_ < begin)) return;
     kept_.assign(r.begin(), r.end());
     system_.to_impulses(best, r);
-    const double end = evaluate(w, free_velocity, laws, r);
-    if (end < begin)
-        report_.residual = end;
+    const Residual end = evaluate(w, free_velocity, laws, r);
+    if (end.largest() < begin)
+        report_.take(end);
     else
         std::copy(kept_.begin(), kept_.end(), r.begin());
 }

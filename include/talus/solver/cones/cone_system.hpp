@@ -43,7 +43,7 @@ class ConeSystem {
   public:
     using Vec = Eigen::VectorXd;
 
-    /// Takes a problem in. `measure` must have been prepared with the same W.
+    /// Takes a problem in. `measure` must have been prepared with the same problem.
     void assign(const DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity,
                 std::vector<FrictionCone<Dim>> cones, const ResidualMeasure<Dim>& measure);
     void assign(BodyMap<Dim> bodies, std::span<const Vector<Dim>> free_velocity,
@@ -77,7 +77,8 @@ class ConeSystem {
             r[c] = scaled.template segment<Dim>(first(c)) * scale_[c];
     }
 
-    /// The residual of ResidualMeasure at r, with u = W r + q.
+    /// The residual of ResidualMeasure at r, the larger of the whole and the worst contact's, with
+    /// u = W r + q.
     double residual(const Vec& r, const Vec& u) const;
 
     /// What one factorisation and its solves cost, in visits of a contact by a sweep over the
@@ -107,7 +108,8 @@ class ConeSystem {
     void apply_inverse(const Vec& b, Vec& x) const;
 
     std::vector<FrictionCone<Dim>> cones_;
-    std::vector<double> scale_;  ///< sqrt(rho_c)
+    std::vector<double> scale_;     ///< sqrt(rho_c)
+    mutable ContactScales scales_;  ///< for the worst contact
     Vec q_;
     bool in_body_space_ = false;
     bool analyzed_ = false;
@@ -154,6 +156,7 @@ void ConeSystem<Dim>::set_common(std::span<const Vector<Dim>> free_velocity,
         scale_[c] = std::sqrt(measure.effective_mass(c));
         q_.template segment<Dim>(first(c)) = scale_[c] * free_velocity[c];
     }
+    scales_ = measure.scales();
     analyzed_ = false;
 }
 
@@ -214,15 +217,22 @@ void ConeSystem<Dim>::multiply(const Vec& r, Vec& u) const {
 template <int Dim>
 double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
     double sum = 0.0;
+    scales_.begin();
     for (std::size_t c = 0; c < contact_count(); ++c) {
         const Vector<Dim> rc = r.template segment<Dim>(first(c));
         const Vector<Dim> corrected =
             de_saxce_corrected<Dim>(u.template segment<Dim>(first(c)), cones_[c].mu);
-        sum += (rc - cones_[c].project(rc - corrected)).squaredNorm();
+        const double share = (rc - cones_[c].project(rc - corrected)).squaredNorm();
+        sum += share;
+        const double mass = scale_[c] * scale_[c];
+        scales_.see(c, share / mass, rc.squaredNorm() / mass);
     }
     const double scale = std::max(r.norm(), q_.norm());
     // 0 / 0 is solved; a problem at rest without impulses has no scale to be wrong by.
-    return sum == 0.0 ? 0.0 : scale == 0.0 ? 1.0 : std::sqrt(sum) / scale;
+    if (sum == 0.0) return 0.0;
+    Residual result{.relative = scale == 0.0 ? 1.0 : std::sqrt(sum) / scale};
+    scales_.judge(result);
+    return result.largest();
 }
 
 template <int Dim>

@@ -154,13 +154,13 @@ class AcceleratedGaussSeidel {
         if (!residual.finite()) {
             std::copy(kept_.begin(), kept_.end(), task.r.begin());
             report_.status = SolveStatus::not_finite;
-        } else if (residual.relative <= params.tolerance) {
+        } else if (residual.largest() <= params.tolerance) {
             report_.status = SolveStatus::converged;
         } else {
             std::copy(task.r.begin(), task.r.end(), kept_.begin());
         }
-        report_.residual = residual.relative;
-        report_.history.push_back({iterations, residual.relative});
+        report_.take(residual);
+        report_.history.push_back({iterations, residual.largest()});
         return report_.status != SolveStatus::iteration_limit;
     }
 

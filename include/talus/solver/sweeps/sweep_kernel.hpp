@@ -41,7 +41,7 @@ class SweepKernel {
   public:
     template <class W>
     void prepare(const SweepTask<Dim, Law, W>& task) {
-        measure_.prepare(task.w);
+        measure_.template prepare<W, Law>(task.w, task.free_velocity, task.laws);
         prepared_.clear();
         prepared_.reserve(task.r.size());
         for (std::size_t i = 0; i < task.r.size(); ++i)
@@ -67,7 +67,7 @@ class SweepKernel {
 
     /// The residual at the impulses that `w` follows. Costs about half a sweep.
     template <class W>
-    Residual evaluate(const SweepTask<Dim, Law, W>& task) const {
+    Residual evaluate(const SweepTask<Dim, Law, W>& task) {
         return measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
                                                [&](std::size_t i) { return task.w.velocity(i); });
     }

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/dynamics/bodies.hpp>
+
+#include <vector>
+
+namespace talus {
+
+/// A copy of the state q, u of all bodies, to go back to when something fails on the way. Allocates
+/// only for more bodies than ever before.
+template <int Dim>
+requires SpaceDimension<Dim>
+class KeptState {
+  public:
+    void keep(const Bodies<Dim>& bodies) {
+        position_ = bodies.position;
+        rotation_ = bodies.rotation;
+        velocity_ = bodies.velocity;
+        spin_ = bodies.spin;
+    }
+    /// Gives the kept state to the bodies, bit for bit; what is kept is lost.
+    void restore(Bodies<Dim>& bodies) noexcept {
+        bodies.position.swap(position_);
+        bodies.rotation.swap(rotation_);
+        bodies.velocity.swap(velocity_);
+        bodies.spin.swap(spin_);
+    }
+
+  private:
+    std::vector<Vector<Dim>> position_;
+    std::vector<Rotation<Dim>> rotation_;
+    std::vector<Vector<Dim>> velocity_;
+    std::vector<AngularVector<Dim>> spin_;
+};
+
+}  // namespace talus
