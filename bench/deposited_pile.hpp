@@ -23,6 +23,7 @@ constexpr double step_length = 1e-3;  // h [s]
 template <int Dim>
 struct Types : talus::SimulationTypes<Dim> {
     using Law = bench::Law<Dim>;
+    using Solver = talus::GaussSeidel<Dim, Law>;
 };
 
 template <int Dim>
@@ -82,12 +83,12 @@ const talus::Scene<Dim>& settled_scene(std::size_t contacts, std::uint64_t seed)
     sim.solver().params.tolerance = 1e-3;
     sim.solver().params.max_sweeps = 200;
     const double rest = 1e-3 * std::sqrt(scene.gravity * params.width);  // [m/s]
-    sim.run(0.5, [&](const auto& now) {
+    static_cast<void>(sim.run(0.5, [&](const auto& now) {
         const auto& bodies = now.system().bodies;
         double speed = 0.0;
         for (const auto& v : bodies.velocity) speed += v.norm();
         return now.time() < 0.05 || speed > rest * static_cast<double>(bodies.count());
-    });
+    }));
     const auto& position = sim.system().bodies.position;
     const std::size_t obstacles = position.size() - scene.grains.size();
     for (std::size_t i = 0; i < scene.grains.size(); ++i)
@@ -119,7 +120,7 @@ const talus::Scene<Dim>& resting_scene(std::size_t contacts, std::uint64_t seed)
     constexpr double kept = 0.97;
     const double rest = 1e-5 * scene.gravity * step_length;  // [m/s]
     auto& bodies = sim.system().bodies;
-    sim.run(1.5, [&](const auto&) {
+    static_cast<void>(sim.run(1.5, [&](const auto&) {
         double square = 0.0;
         for (std::size_t i = 0; i < bodies.count(); ++i) {
             square += bodies.velocity[i].squaredNorm();
@@ -127,7 +128,7 @@ const talus::Scene<Dim>& resting_scene(std::size_t contacts, std::uint64_t seed)
             bodies.spin[i] *= kept;
         }
         return square > rest * rest * static_cast<double>(bodies.count());
-    });
+    }));
     const std::size_t obstacles = bodies.position.size() - scene.grains.size();
     for (std::size_t i = 0; i < scene.grains.size(); ++i)
         scene.grains[i].position = bodies.position[obstacles + i];

@@ -26,16 +26,12 @@ void drop_ball() {
                                       {Vector<Dim>(3.0 * Vector<Dim>::Unit(0))});
 
     EnergyLedger<Dim> ledger(system.bodies, system.gravity);
-    double worst_residual = 0.0;
-    sim.run(2.0, [&](const auto& s) {
-        ledger.record(s.data(), s.system().bodies);
-        worst_residual = std::max(worst_residual, s.data().report.residual);
-    });
+    const RunSummary run =
+        sim.run(2.0, [&](const auto& s) { ledger.record(s.data(), s.system().bodies); });
 
     const double speed = system.bodies.velocity[static_cast<std::size_t>(ball)][0];
-    std::printf(
-        "%dD: rolls at %.12f m/s (exact %.12f), energy books close to %.0e, residual %.0e\n", Dim,
-        speed, Dim == 2 ? 2.0 : 15.0 / 7.0, ledger.closure(), worst_residual);
+    std::printf("%dD: rolls at %.12f m/s (exact %.12f), energy books close to %.0e\n    %s\n", Dim,
+                speed, Dim == 2 ? 2.0 : 15.0 / 7.0, ledger.closure(), to_string(run).c_str());
 }
 
 int main() {

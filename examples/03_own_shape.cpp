@@ -60,7 +60,7 @@ void rock() {
 
     int crossings = 0;
     double first = 0.0, last = 0.0, before = 0.01;
-    sim.run(4.0, [&](const auto& s) {
+    const RunSummary run = sim.run(4.0, [&](const auto& s) {
         const double angle = s.system().bodies.rotation[1].log()[Dim == 2 ? 0 : 1];
         if (angle * before < 0) {
             last = s.time() - h * angle / (angle - before);
@@ -72,7 +72,7 @@ void rock() {
     const double period =
         2 * std::numbers::pi * std::sqrt((moment + m * b * b) / (m * g * (curvature_radius - b)));
     std::printf("%dD: period %.4f s, small-angle theory %.4f s, residual %.0e\n", Dim,
-                2 * (last - first) / (crossings - 1), period, sim.data().report.residual);
+                2 * (last - first) / (crossings - 1), period, run.residual.value);
 }
 
 int main() {

@@ -53,10 +53,9 @@ void slide() {
     // Infinite moments of inertia: a block that does not turn.
     system.add(Ball<Dim>{0.1}, Inertia<Dim>{mass, AngularVector<Dim>::Constant(never)},
                {0.1 * up, {}}, {Vector<Dim>::Unit(0)});
-    sim.run(0.5);
+    const RunSummary run = sim.run(0.5);
     std::printf("%dD: speed after 50 steps %.12f m/s, exact %.12f, residual %.0e\n", Dim,
-                system.bodies.velocity[1][0], std::pow(1 + drag / mass, -50),
-                sim.data().report.residual);
+                system.bodies.velocity[1][0], std::pow(1 + drag / mass, -50), run.residual.value);
 }
 
 int main() {

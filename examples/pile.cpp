@@ -63,7 +63,7 @@ Pile<Dim> make_simulation(const talus::Scene<Dim>& scene, const Options& o) {
     Pile<Dim> sim({{o.mu.value_or(scene.mu)}, o.restitution, 0.0}, params);
     sim.gap_correction().params.fraction = o.correction;
     sim.solver().params.tolerance = o.tolerance;
-    sim.solver().params.max_sweeps = static_cast<int>(o.max_sweeps);
+    sim.solver().params.max_iterations = static_cast<int>(o.max_sweeps);
 
     auto& system = sim.system();
     const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
@@ -92,7 +92,7 @@ nlohmann::json settle(const Options& o) {
                 o.mu.value_or(scene.mu), o.step, o.duration);
     Certificate<Dim> certificate(sim, o.tolerance, scene.mean_radius);
     Progress progress(std::to_string(Dim) + "D");
-    sim.run(o.duration, [&](const auto& s) {
+    const talus::RunSummary run = sim.run(o.duration, [&](const auto& s) {
         certificate.record(s);
         if (o.quiet) return;
         char remark[100];
@@ -101,7 +101,7 @@ nlohmann::json settle(const Options& o) {
                       certificate.last().residual);
         progress.show(s.time() / o.duration, remark);
     });
-    if (sim.step_count() == 0)
+    if (run.steps == 0)
         throw talus::input_error("--duration is less than half of --step, but must hold a step");
     const double seconds = progress.seconds();
     std::printf("Certificate\n%s", certificate.text(seconds).c_str());

@@ -26,7 +26,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_energy_books_close_in_every_run, D, dimensions
     for (double e : {0.0, 0.5}) {
         auto sim = small_heap<Dim>(e);
         talus::EnergyLedger<Dim> ledger(sim.system().bodies, sim.system().gravity);
-        sim.run(1.0, [&](const auto& s) { ledger.record(s.data(), s.system().bodies); });
+        const auto run =
+            sim.run(1.0, [&](const auto& s) { ledger.record(s.data(), s.system().bodies); });
+        BOOST_TEST(run.missed == 0);
         BOOST_CHECK_LT(ledger.closure(), 1e-12);
         BOOST_CHECK_LT(ledger.flows().friction, 0.0);
         BOOST_CHECK_LT(ledger.flows().restitution, 0.0);
@@ -55,7 +57,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_books_close_with_moving_walls_and_applied_forc
         }
     });
     talus::EnergyLedger<Dim> ledger(sim.system().bodies, sim.system().gravity);
-    sim.run(1.5, [&](const auto& s) { ledger.record(s.data(), s.system().bodies); });
+    const auto run =
+        sim.run(1.5, [&](const auto& s) { ledger.record(s.data(), s.system().bodies); });
+    BOOST_TEST(run.missed == 0);
     BOOST_CHECK_LT(ledger.closure(), 1e-12);
     BOOST_CHECK_GT(std::abs(ledger.flows().walls), 0.1);
     BOOST_CHECK_GT(std::abs(ledger.flows().applied), 1e-3);
@@ -84,8 +88,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_same_input_gives_the_same_bits, D, dimensions)
     constexpr int Dim = D::value;
     auto one = small_heap<Dim>();
     auto two = small_heap<Dim>();
-    one.run(0.6);
-    two.run(0.6);
+    BOOST_TEST(one.run(0.6).missed == 0);
+    BOOST_TEST(two.run(0.6).missed == 0);
     BOOST_CHECK(same_bits(state(one), state(two)));
 }
 
@@ -120,8 +124,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_candidates_of_the_broad_phase_do_not_show_in_t
     narrow.step.skin = 0.0;
     auto one = small_heap<Dim>(0.0, wide);
     auto two = small_heap<Dim>(0.0, narrow);
-    one.run(0.6);
-    two.run(0.6);
+    BOOST_TEST(one.run(0.6).missed == 0);
+    BOOST_TEST(two.run(0.6).missed == 0);
     BOOST_CHECK(same_bits(state(one), state(two)));
 }
 
@@ -134,14 +138,15 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_step_meets_the_tolerance_and_the_floor_carri
         params.step.scheme = scheme;
         auto sim = small_heap<Dim>(0.0, params);
         sim.solver().params.tolerance = tolerance;
-        sim.solver().params.max_sweeps = 100000;
+        sim.solver().params.max_iterations = 100000;
         double worst = 0.0, deepest = 0.0;
         int missed = 0;
-        sim.run(2.0, [&](const auto& s) {
+        const auto run = sim.run(2.0, [&](const auto& s) {
             worst = std::max(worst, s.data().report.residual);
             deepest = std::max(deepest, talus::penetration(s.data().contacts).max);
             missed += s.data().report.status != talus::SolveStatus::converged;
         });
+        BOOST_TEST(run.missed == 0);
         BOOST_CHECK_LE(worst, tolerance);
         BOOST_CHECK_EQUAL(missed, 0);
         double weight = 0.0;
@@ -167,7 +172,7 @@ BOOST_AUTO_TEST_CASE(balls_confined_to_a_plane_move_as_discs) {
     talus::Simulation<3> space(law<3>(0.4, 0.3), params);
     for (auto* solver : {&flat.solver().params, &space.solver().params}) {
         solver->tolerance = 1e-13;
-        solver->max_sweeps = 100000;
+        solver->max_iterations = 100000;
     }
     const auto lift = [](const V<2>& v) { return V<3>(v[0], 0.0, v[1]); };
     space.system().gravity = lift(flat.system().gravity);
@@ -201,11 +206,12 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_gap_correction_removes_overlap_without_making_en
     talus::EnergyLedger<Dim> ledger(corrected.system().bodies, corrected.system().gravity);
     double highest = -1e9;
     const double start = ledger.kinetic() + ledger.potential();
-    corrected.run(1.5, [&](const auto& s) {
+    const auto run = corrected.run(1.5, [&](const auto& s) {
         ledger.record(s.data(), s.system().bodies);
         highest = std::max(highest, ledger.kinetic() + ledger.potential());
     });
-    plain.run(1.5);
+    BOOST_TEST(run.missed == 0);
+    BOOST_TEST(plain.run(1.5).missed == 0);
     BOOST_CHECK_LE(highest, start * (1 + 1e-12));
     BOOST_CHECK_LT(ledger.closure(), 1e-12);
     BOOST_CHECK_GT(ledger.flows().correction, 0.0);
@@ -243,7 +249,9 @@ BOOST_AUTO_TEST_CASE(a_spinning_box_that_is_moved_out_of_the_floor_keeps_its_ene
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_run_stops_when_the_observer_says_so, D, dimensions) {
     constexpr int Dim = D::value;
     auto sim = small_heap<Dim>();
-    sim.run(1.0, [](const auto& s) { return s.step_count() < 7; });
+    const auto run = sim.run(1.0, [](const auto& s) { return s.step_count() < 7; });
+    BOOST_TEST(run.stopped);
+    BOOST_TEST(run.steps == 7);
     BOOST_CHECK_EQUAL(sim.step_count(), 7);
     BOOST_CHECK_CLOSE(sim.time(), 7 * 2e-3, 1e-12);
 }
@@ -252,7 +260,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_force_that_is_not_finite_is_named_and_nothing_mo
                               dimensions) {
     constexpr int Dim = D::value;
     auto sim = small_heap<Dim>();
-    sim.run(0.1);
+    BOOST_TEST(sim.run(0.1).missed == 0);
     const auto before = state(sim);
     sim.system().forces.push_back(
         [](double, const auto&, auto wrenches) { wrenches[9].force[1] = std::nan(""); });
@@ -288,8 +296,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(an_own_broad_phase_changes_no_bit, D, dimensions) 
     constexpr int Dim = D::value;
     auto own = small_heap<Dim, WithEveryPair<Dim>>();
     auto usual = small_heap<Dim>();
-    own.run(0.3);
-    usual.run(0.3);
+    BOOST_TEST(own.run(0.3).missed == 0);
+    BOOST_TEST(usual.run(0.3).missed == 0);
     BOOST_CHECK_GT(usual.data().contact_count(), 10u);
     const auto &a = own.system().bodies, &b = usual.system().bodies;
     for (std::size_t i = 0; i < a.count(); ++i)

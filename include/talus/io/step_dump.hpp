@@ -25,12 +25,12 @@ concept SteppedRun = requires(const S& run) {
 /// An observer that writes the contact problem of a step to a file of its own, with the impulses
 /// found as the file's solution: FOLDER/NAME-000123.hdf5 for step 123. For every step:
 ///
-///     sim.run(1.0, StepDump("problems", "pile"));
+///     const RunSummary run = sim.run(1.0, StepDump("problems", "pile"));
 ///
 /// or for those of interest:
 ///
 ///     const StepDump dump("problems", "pile");
-///     sim.run(1.0, [&](const auto& s) {
+///     const RunSummary run = sim.run(1.0, [&](const auto& s) {
 ///         if (s.data().report.status != SolveStatus::converged) dump(s);
 ///     });
 ///

@@ -3,13 +3,18 @@
 
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/input.hpp>
-#include <talus/solver/sweeps/gauss_seidel.hpp>
+#include <talus/problem/islands.hpp>
+#include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -17,28 +22,32 @@ namespace talus {
 /// Answer of the one-step equilibrium test.
 enum class Verdict {
     equilibrium,  ///< the forces found hold the bodies: a *possible* equilibrium, stable or not
-    moving,       ///< the solver converged and something moves
-    undecided,    ///< the solver did not converge: raise its sweep limit or take another solver
+    moving,       ///< something moves, faster than the error of the forces can explain
+    undecided,    ///< the forces are not accurate enough for either, see `reason`
 };
 
 /// Settings of the equilibrium test.
 struct EquilibriumParams {
     double h = 1e-3;  ///< step size [s]; the verdict does not depend on it
     /// Largest end speed, relative to the speed that the loads alone would give in the step, that
-    /// counts as rest [-]. Needs a solver tolerance some hundred times smaller.
+    /// counts as rest, and largest residual of forces that count as found [-].
     double rest = 1e-9;
-    /// Gap below which a contact counts as closed [m]; 1e-10 of the bodies' size suits bodies
-    /// placed "exactly" in touch.
-    double contact_tolerance = 0.0;
+    /// Gap below which a contact counts as closed [m]. Unless given, 1e-9 of the bodies' mean
+    /// bounding radius and what rounding makes of their coordinates: bodies placed "exactly" in
+    /// touch are in touch.
+    std::optional<double> contact_tolerance = std::nullopt;
 };
 
 /// What the test found.
 template <int Dim, class Law>
 struct EquilibriumReport {
     Verdict verdict = Verdict::undecided;
+    std::string reason;       ///< of the verdict, in a sentence
     double speed = 0.0;       ///< largest point speed at the end of the step [m/s]
     double load_speed = 0.0;  ///< the same if there were no contacts [m/s]
-    double residual = 0.0;    ///< of the contact forces [-]
+    /// Largest point speed relative to that of the loads on the bodies connected by contacts [-].
+    double relative_speed = 0.0;
+    double residual = 0.0;    ///< of the contact forces, at the worst contact [-]
     StepData<Dim, Law> data;  ///< contacts and impulses; divide those by h for forces
 
     /// Contact force of contact c in its local frame [N].
@@ -47,36 +56,98 @@ struct EquilibriumReport {
 
 namespace detail {
 
-/// Largest speed of a point of a free body.
+/// Speed of the fastest point of each body; 0 for obstacles [m/s].
 template <int Dim, class Law, class ShapeType>
-double largest_point_speed(const System<Dim, Law, ShapeType>& system,
-                           std::span<const Twist<Dim>> twists) {
-    double largest = 0.0;
+std::vector<double> point_speeds(const System<Dim, Law, ShapeType>& system,
+                                 std::span<const Twist<Dim>> twists) {
+    std::vector<double> speed(twists.size(), 0.0);
     for (std::size_t i = 0; i < twists.size(); ++i) {
         if (system.bodies.is_obstacle(i)) continue;
         const double spin = twists[i].angular.norm();
-        const double turning = spin > 0.0 ? spin * system.bounding_radius()[i] : 0.0;
-        largest = std::max(largest, twists[i].linear.norm() + turning);
+        speed[i] =
+            twists[i].linear.norm() + (spin > 0.0 ? spin * system.bounding_radius()[i] : 0.0);
     }
+    return speed;
+}
+
+/// The largest ratio, over islands of bodies, of the largest of `speed` to the largest of `load`.
+template <int Dim>
+double relative_speed(const Bodies<Dim>& bodies, const ContactSet<Dim>& contacts,
+                      std::span<const double> speed, std::span<const double> load) {
+    Islands islands;
+    islands.reset(speed.size());
+    for (const ContactKey& key : contacts.key) {
+        const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
+        if (!bodies.is_obstacle(a) && !bodies.is_obstacle(b)) islands.join(a, b);
+    }
+    std::vector<double> most(speed.size(), 0.0), loaded(speed.size(), 0.0);
+    for (std::size_t i = 0; i < speed.size(); ++i) {
+        const std::size_t island = islands.root(i);
+        most[island] = std::max(most[island], speed[i]);
+        loaded[island] = std::max(loaded[island], load[i]);
+    }
+    double largest = 0.0;
+    for (std::size_t i = 0; i < speed.size(); ++i)
+        if (most[i] > 0.0) largest = std::max(largest, most[i] / loaded[i]);
     return largest;
+}
+
+/// Gap of bodies that are in touch but for rounding [m].
+template <int Dim, class Law, class ShapeType>
+double touching_gap(const System<Dim, Law, ShapeType>& system) {
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < system.bodies.count(); ++i) {
+        const double radius = system.bounding_radius()[i];
+        farthest = std::max(
+            farthest, system.bodies.position[i].norm() + (std::isfinite(radius) ? radius : 0.0));
+    }
+    return 1e-9 * system.mean_bounding_radius() +
+           16.0 * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+/// Verdict and reason from the numbers of a report.
+template <int Dim, class Law>
+void decide(EquilibriumReport<Dim, Law>& report, double rest) {
+    // How many times its own size an error of the forces may show in the velocities. Where it shows
+    // more, near a threshold, the residual of an undecided answer tells.
+    constexpr double amplification = 100.0;
+    const double explained = amplification * report.residual;
+    const std::string found = "bodies move at " + text_of(report.relative_speed) +
+                              " of the speed that the loads alone would give, the residual is " +
+                              text_of(report.residual);
+    if (report.data.report.status == SolveStatus::no_solution) {
+        report.reason = "no forces obey all laws: " + found;
+    } else if (report.relative_speed <= rest && report.residual <= rest) {
+        report.verdict = Verdict::equilibrium;
+        report.reason = "forces that hold all bodies were found: " + found;
+    } else if (report.relative_speed > std::max(rest, explained)) {
+        report.verdict = Verdict::moving;
+        report.reason = "something moves: " + found;
+    } else {
+        report.reason = "the forces are not accurate enough to tell: " + found +
+                        ", but must be below " + text_of(rest) + " for rest, and the speed above " +
+                        text_of(amplification) +
+                        " residuals for motion: allow more iterations, or take Automatic, as near "
+                        "a threshold sweeps converge slowly";
+    }
 }
 
 }  // namespace detail
 
 /// Whether a configuration is a possible equilibrium, "found in one step": one step from zero
 /// velocity; if the end velocity is zero, the contact forces found agree with equilibrium ([Moreau]
-/// end of section 2.1). The system is not changed. `start` offers impulses to begin from (scaled
-/// for this h): with self-stress, as in a jammed wedge, the verdict may depend on it, since both
-/// answers are then solutions. `hooks` are called between the stages of the step.
-template <int Dim, class Law, class ShapeType, class Solver = GaussSeidel<Dim, Law>,
-          class Hooks = NoHooks>
-EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
-                                        const EquilibriumParams& params, Solver solver = Solver(),
-                                        const ImpulseCache<Dim>& start = {},
-                                        const Hooks& hooks = {}) {
+/// end of section 2.1). The system is not changed. The solver's own tolerance should be `rest` or
+/// less. `start` offers impulses to begin from (scaled for this h): with self-stress, as in a
+/// jammed wedge, the verdict may depend on it, since both answers are then solutions. `hooks` are
+/// called between the stages of the step.
+template <int Dim, class Law, class ShapeType, class Solver, class Hooks = NoHooks>
+requires ContactSolver<Solver, Dim, Law> EquilibriumReport<Dim, Law> equilibrium(
+    System<Dim, Law, ShapeType> system, const EquilibriumParams& params, Solver solver,
+    const ImpulseCache<Dim>& start = {}, const Hooks& hooks = {}) {
     require_positive("step size h", params.h);
     require_positive("rest", params.rest);
-    require_non_negative("contact tolerance", params.contact_tolerance);
+    const double tolerance = params.contact_tolerance.value_or(detail::touching_gap(system));
+    require_non_negative("contact tolerance", tolerance);
     Bodies<Dim>& bodies = system.bodies;
     for (std::size_t i = 0; i < bodies.count(); ++i) {
         bodies.velocity[i].setZero();
@@ -86,20 +157,28 @@ EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
     integrator.hooks() = hooks;
     integrator.impulse_cache() = start;
     EquilibriumReport<Dim, Law> report;
-    const StepParams step{.contact_tolerance = params.contact_tolerance};
+    const StepParams step{.contact_tolerance = tolerance};
     integrator.step(system, 0.0, params.h, step, solver, report.data);
     const StepData<Dim, Law>& data = report.data;
+    const std::vector<double> speed = detail::point_speeds<Dim>(system, data.end);
+    const std::vector<double> load = detail::point_speeds<Dim>(system, data.free);
+    for (const double s : speed) report.speed = std::max(report.speed, s);
+    for (const double s : load) report.load_speed = std::max(report.load_speed, s);
+    report.relative_speed = detail::relative_speed<Dim>(bodies, data.contacts, speed, load);
     report.residual = data.report.residual;
-    report.speed = detail::largest_point_speed<Dim>(system, data.end);
-
-    report.load_speed = detail::largest_point_speed<Dim>(system, data.free);
-
-    if (data.report.status != SolveStatus::converged)
-        report.verdict = Verdict::undecided;
-    else
-        report.verdict = report.speed <= params.rest * report.load_speed ? Verdict::equilibrium
-                                                                         : Verdict::moving;
+    detail::decide(report, params.rest);
     return report;
+}
+
+/// The same with accelerated sweeps as accurate as `rest` asks for. Near a threshold they need
+/// some 1 / distance of them, and the verdict may be undecided where Automatic finds one.
+template <int Dim, class Law, class ShapeType>
+EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
+                                        const EquilibriumParams& params = {}) {
+    AcceleratedGaussSeidel<Dim, Law> solver({.max_iterations = 20000,
+                                             .tolerance = 0.01 * params.rest,
+                                             .acceleration = Acceleration::anderson});
+    return equilibrium(std::move(system), params, std::move(solver));
 }
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 #include <talus/core/instantiate.hpp>
 #include <talus/core/observer.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
+#include <talus/stepping/run_summary.hpp>
 #include <talus/stepping/simulation_types.hpp>
 
 #include <cmath>
@@ -26,9 +27,10 @@ struct SimulationParams {
 ///
 ///     Simulation<3> sim({Coulomb<3>{.mu = 0.4}}, {.h = 1e-3});
 ///     sim.system().gravity[2] = -9.81;
-///     sim.system().add_obstacle(HalfSpace<3>{...});
-///     sim.system().add(Ball<3>{0.005}, 2600.0, pose);
-///     sim.run(1.0, [](const auto& s) { return s.data().report.residual < 1.0; });
+///     sim.system().add_obstacle(HalfSpace<3>{Vector<3>::Unit(2), 0.0});
+///     sim.system().add(Ball<3>{0.005}, 2600.0, Pose<3>{{0.0, 0.0, 0.1}, {}});
+///     const RunSummary run = sim.run(1.0);
+///     if (!run.certified()) std::puts(to_string(run).c_str());
 template <int Dim, class Types = SimulationTypes<Dim>>
 requires SpaceDimension<Dim>
 class Simulation {
@@ -49,10 +51,10 @@ class Simulation {
 
     /// Throws input_error if a setting is out of range.
     explicit Simulation(SystemType system, SimulationParams params = {},
-                        Solver solver = make_solver<Dim, Types>());
+                        Solver solver = default_solver<Dim, Types>());
     /// One material.
     explicit Simulation(const Law& law, SimulationParams params = {},
-                        Solver solver = make_solver<Dim, Types>())
+                        Solver solver = default_solver<Dim, Types>())
         : Simulation(SystemType(law), params, std::move(solver)) {}
 
     /// Advances by one step; returns what it did. Whatever is thrown on the way (by a law, a force,
@@ -60,16 +62,24 @@ class Simulation {
     /// bit.
     const Data& step();
 
-    /// Makes the steps that bring the clock to `duration` [s] from now, to the nearest step.
-    /// `on_step(const Simulation&)` is called after each; if it returns bool, false stops the run.
+    /// Makes the steps that bring the clock to `duration` [s] from now, to the nearest step, and
+    /// tells whether they can be believed. `on_step(const Simulation&)` is called after each; if it
+    /// returns bool, false stops the run. Throws input_error for a duration that is not finite,
+    /// negative or of more than 1e15 steps.
     template <class OnStep = Ignore>
-    void run(double duration, OnStep on_step = {}) {
-        require_non_negative("duration", duration);
+    [[nodiscard("whether all steps met their tolerance")]] RunSummary run(double duration,
+                                                                          OnStep on_step = {}) {
+        constexpr double most_steps = 1e15;
+        require_in("duration", duration, 0.0, most_steps * params_.h);
         const std::int64_t steps = std::llround(duration / params_.h);
+        RunSummary summary;
         for (std::int64_t k = 0; k < steps; ++k) {
             step();
-            if (!notify(on_step, std::as_const(*this))) return;
+            summary.record(system_, data_);
+            summary.stopped = !notify(on_step, std::as_const(*this));
+            if (summary.stopped) break;
         }
+        return summary;
     }
 
     double time() const { return time_; }  ///< [s]

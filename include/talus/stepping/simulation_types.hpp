@@ -55,7 +55,7 @@ using SolverOf =
                        AcceleratedGaussSeidel<Dim, typename Types::Law>, typename Types::Solver>;
 /// One with its own defaults, or with those of DefaultSolver.
 template <int Dim, class Types>
-SolverOf<Dim, Types> make_solver() {
+SolverOf<Dim, Types> default_solver() {
     if constexpr (std::same_as<typename Types::Solver, DefaultSolver>)
         return SolverOf<Dim, Types>(DefaultSolver::params);
     else

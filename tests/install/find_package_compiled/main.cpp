@@ -11,6 +11,6 @@ int main() {
     sim.system().gravity[2] = -9.81;
     sim.system().add_obstacle(talus::HalfSpace<3>({0.0, 0.0, 1.0}));
     sim.system().add(talus::Ball<3>(0.1), 1000.0, {{0.0, 0.0, 0.11}, {}});
-    sim.run(0.2);
-    return sim.system().bodies.velocity[1].norm() < 1e-9 ? 0 : 1;
+    const talus::RunSummary run = sim.run(0.2);
+    return run.certified() && sim.system().bodies.velocity[1].norm() < 1e-9 ? 0 : 1;
 }

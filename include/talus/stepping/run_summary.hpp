@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/collision/contact_set.hpp>
+#include <talus/core/input.hpp>
+#include <talus/stepping/step_data.hpp>
+#include <talus/stepping/system.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace talus {
+
+/// What is to be known of a run before its result is believed.
+struct RunSummary {
+    /// A number that was the worst of the run, with when and between which bodies.
+    struct Worst {
+        double value = 0.0;
+        double time = 0.0;                   ///< end of the step [s]
+        BodyIndex a = no_body, b = no_body;  ///< no_body where there was none
+    };
+    static constexpr BodyIndex no_body = -1;
+
+    std::int64_t steps = 0;
+    std::int64_t missed = 0;  ///< steps whose solver did not converge
+    Worst residual;           ///< of SolveReport, at its worst contact [-]
+    Worst velocity_error;     ///< largest velocity by which a contact violated its law [m/s]
+    /// Deepest overlap as a fraction of the bounding radius of the smaller body [-].
+    Worst overlap;
+    bool stopped = false;  ///< by the observer
+
+    /// Every step converged, and no body was entered by more than a tenth of its radius.
+    bool certified() const { return missed == 0 && overlap.value <= 0.1; }
+
+    /// Notes a step. O(contacts).
+    template <int Dim, class Law, class ShapeType>
+    void record(const System<Dim, Law, ShapeType>& system, const StepData<Dim, Law>& data) {
+        ++steps;
+        if (data.report.status != SolveStatus::converged) ++missed;
+        const std::size_t c = data.report.worst_contact;
+        note(residual, data.report.residual, data, c);
+        note(velocity_error, data.report.velocity_error, data, c);
+        const auto radius = system.bounding_radius();
+        for (std::size_t k = 0; k < data.contact_count(); ++k) {
+            if (data.contacts.gap[k] >= 0.0) continue;
+            const auto [a, b, feature] = data.contacts.key[k];
+            const double smaller =
+                std::min(radius[static_cast<std::size_t>(a)], radius[static_cast<std::size_t>(b)]);
+            note(overlap, -data.contacts.gap[k] / smaller, data, k);
+        }
+    }
+
+  private:
+    template <class Data>
+    static void note(Worst& worst, double value, const Data& data, std::size_t contact) {
+        if (!(value > worst.value) && !std::isnan(value)) return;
+        worst = {value, data.t_end()};
+        if (contact >= data.contact_count()) return;
+        worst.a = data.contacts.key[contact].a;
+        worst.b = data.contacts.key[contact].b;
+    }
+};
+
+/// One sentence for people.
+inline std::string to_string(const RunSummary& run) {
+    const auto at = [](const RunSummary::Worst& worst) {
+        std::string text =
+            detail::text_of(worst.value) + " at t = " + detail::text_of(worst.time) + " s";
+        if (worst.a != RunSummary::no_body)
+            text +=
+                " between bodies " + std::to_string(worst.a) + " and " + std::to_string(worst.b);
+        return text;
+    };
+    std::string text = std::to_string(run.steps) + " steps, " + std::to_string(run.missed) +
+                       " missed the tolerance";
+    if (run.residual.value > 0.0) text += "; worst residual " + at(run.residual);
+    if (run.overlap.value > 0.0)
+        text += "; deepest overlap, of the smaller radius, " + at(run.overlap);
+    return text;
+}
+
+}  // namespace talus
