@@ -3,6 +3,7 @@
 
 #include <talus/geometry/ball.hpp>
 #include <talus/geometry/half_space.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/gap_correction.hpp>
 #include <talus/stepping/simulation.hpp>
 
@@ -72,17 +73,23 @@ talus::DefaultLaw<Dim> law(double mu, double e_n = 0.0, double e_t = 0.0) {
     return {{mu}, e_n, e_t};
 }
 
+/// Plain Gauss-Seidel, the paper's.
+template <int Dim>
+struct Sweeping : talus::SimulationTypes<Dim> {
+    using Solver = talus::GaussSeidel<Dim, talus::DefaultLaw<Dim>>;
+};
+
 /// A simulation with a tight solver, gravity and (if asked) a floor as body 0.
 template <int Dim>
-talus::Simulation<Dim> simulation(const talus::DefaultLaw<Dim>& contact_law, double h,
-                                  const V<Dim>& gravity, bool floor = true) {
+talus::Simulation<Dim, Sweeping<Dim>> simulation(const talus::DefaultLaw<Dim>& contact_law,
+                                                 double h, const V<Dim>& gravity,
+                                                 bool floor = true) {
     talus::SimulationParams params;
     params.h = h;
     params.step.contact_tolerance = touching;
-    talus::GaussSeidel<Dim, talus::DefaultLaw<Dim>> solver;
-    solver.params.tolerance = solver_tolerance;
-    solver.params.max_sweeps = 100000;
-    talus::Simulation<Dim> sim(contact_law, params, solver);
+    talus::Simulation<Dim, Sweeping<Dim>> sim(contact_law, params);
+    sim.solver().params.tolerance = solver_tolerance;
+    sim.solver().params.max_sweeps = 100000;
     sim.system().gravity = gravity;
     if (floor) sim.system().add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
     return sim;

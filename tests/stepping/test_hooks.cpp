@@ -2,6 +2,7 @@
 #include <talus/geometry/any_shape_of.hpp>
 #include <talus/geometry/ball.hpp>
 #include <talus/geometry/half_space.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>
 

@@ -44,11 +44,12 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_books_close_with_moving_walls_and_applied_forc
     const double w = 2 * pi;
     sim.system().add_obstacle(
         talus::HalfSpace<Dim>{up<Dim>(), 0.0},
-        talus::PrescribedMotion<Dim>::shifted(
-            {}, [=](double t) { return V<Dim>(0.05 * (1 - std::cos(w * t)) * up<Dim>()); },
-            [=](double t) {
-                return V<Dim>(0.05 * w * std::sin(w * t) * up<Dim>() + 0.3 * V<Dim>::Unit(0));
-            }));
+        talus::PrescribedMotion<Dim>::of_pose([=](double t) {
+            return talus::Pose<Dim>{0.05 * (1 - std::cos(w * t)) * up<Dim>(), {}};
+        }).with_surface([=](double t) {
+            return talus::Twist<Dim>{0.05 * w * std::sin(w * t) * up<Dim>() +
+                                     0.3 * V<Dim>::Unit(0)};
+        }));
     sim.system().forces.push_back([](double t, const auto& bodies, auto wrenches) {
         for (std::size_t i = 0; i < bodies.count(); ++i) {
             if (bodies.is_obstacle(i)) continue;

@@ -11,10 +11,8 @@ template <int Dim, class Velocity>
 talus::BodyIndex add_belt(World<Dim>& world, Velocity velocity) {
     return world.add_obstacle(
         talus::HalfSpace<Dim>(up<Dim>()),
-        talus::PrescribedMotion<Dim>([](double) { return talus::Pose<Dim>{}; },
-                                     [velocity](double t) {
-                                         return talus::Twist<Dim>{velocity(t), W<Dim>::Zero()};
-                                     }));
+        talus::PrescribedMotion<Dim>().with_surface(
+            [velocity](double t) { return talus::Twist<Dim>{velocity(t)}; }));
 }
 
 /// The floor as a table that turns about the last axis through the origin at `rate` [rad/s].

@@ -53,12 +53,17 @@ class ContactScales {
             label = index_[label];
         }
         island_.assign(count, Island{});
+        fastest_ = 0.0;
     }
     std::size_t contact_count() const { return label_.size(); }
-    /// The velocity by which contact i violates its law without any impulse, squared.
-    void see_violation(std::size_t i, double square) {
+    /// Knows no problem.
+    void clear() { label_.clear(); }
+    /// Squares of the velocity by which contact i violates its law without any impulse, and of its
+    /// free velocity.
+    void see_violation(std::size_t i, double square, double free) {
         Island& island = island_[label_[i]];
         island.violated = std::max(island.violated, std::sqrt(square));
+        fastest_ = std::max(fastest_, std::sqrt(free));
     }
 
     /// Before the contacts are judged.
@@ -79,7 +84,7 @@ class ContactScales {
         for (const Island& island : island_) {
             const double error = std::sqrt(island.error);
             result.velocity = std::max(result.velocity, error);
-            const double counted = error - rounding * (std::sqrt(island.largest) + island.violated);
+            const double counted = error - rounding * (std::sqrt(island.largest) + fastest_);
             if (!(counted > 0.0)) continue;
             const double zeta = island.violated > 0.0 ? counted / island.violated : 1.0;
             if (!(zeta > result.contact)) continue;
@@ -99,6 +104,7 @@ class ContactScales {
     std::vector<std::uint32_t> label_;  ///< island of each contact
     std::vector<std::uint32_t> index_;
     std::vector<Island> island_;
+    double fastest_ = 0.0;  ///< free velocity of any contact [m/s]
 };
 
 /// The one measure that every solver is judged by. With u = W r + u_free,
@@ -123,7 +129,8 @@ class ContactScales {
 /// its law. V_c is the largest such velocity that there would be without any impulse, among the
 /// contacts of its island: those that chains of free bodies connect with it. For bodies at rest
 /// under gravity V is h g; what happens elsewhere, however fast, hides nothing. What the rounding
-/// of the largest velocity r_c / rho_c of the island explains is not counted as an error.
+/// of the largest velocity r_c / rho_c of the island, and of the largest of u_free anywhere,
+/// explains is not counted as an error.
 ///
 /// Conventions. 0/0 is 0. If the scale is 0 and the error is not (a law that attracts), eta and
 /// zeta are 1. A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Rows
@@ -138,6 +145,7 @@ class ResidualMeasure {
     /// larger problem than any before.
     template <DelassusOperator<Rows> W>
     void prepare(const W& w) {
+        scales_.clear();
         rho_.resize(w.contact_count());
         double sum = 0.0;
         std::size_t positive = 0;
@@ -162,7 +170,8 @@ class ResidualMeasure {
         for (std::size_t i = 0; i < rho_.size(); ++i) {
             const Vector<Rows> f =
                 laws[i].natural_map(free_velocity[i], Vector<Rows>::Zero(), rho_[i]);
-            scales_.see_violation(i, f.squaredNorm() / (rho_[i] * rho_[i]));
+            scales_.see_violation(i, f.squaredNorm() / (rho_[i] * rho_[i]),
+                                  free_velocity[i].squaredNorm());
         }
     }
 

@@ -109,7 +109,7 @@ class MoreauMidpoint {
     KeptState<Dim> before_;
     bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
     std::vector<double> reach_;
-    double last_h_ = 0.0, h_before_ = 0.0;
+    double last_h_ = 0.0, h_before_ = 0.0, time_before_ = 0.0;
     [[no_unique_address]] Hooks hooks_;
 };
 
@@ -126,6 +126,7 @@ TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const 
     kept_ = stored_ = false;
     require_shapes(system);
     before_.keep(system.bodies);
+    time_before_ = system.time();
     kept_ = true;
     data.t_begin = t_begin;
     data.h = h;
@@ -159,7 +160,10 @@ TALUS_OF_STEP::complete(SystemType& system, Data& data) {
 }
 
 TALUS_OF_STEP::undo(SystemType& system) noexcept {
-    if (kept_) before_.restore(system.bodies);
+    if (kept_) {
+        before_.restore(system.bodies);
+        system.set_time(time_before_);
+    }
     if (stored_) {
         std::swap(cache_, other_cache_);
         last_h_ = h_before_;
@@ -177,7 +181,8 @@ TALUS_OF_STEP::require_shapes(const SystemType& system) {
 TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
     Bodies<Dim>& bodies = system.bodies;
     const std::size_t n = bodies.count();
-    system.place_obstacles(data.t_mid());
+    constexpr double part_of_step = 1e-3;  // over which the obstacles' motion is checked
+    system.place_obstacles(data.t_mid(), part_of_step * data.h);
     drift(bodies, 0.5 * data.h);
     data.begin.resize(n);
     for (std::size_t i = 0; i < n; ++i) data.begin[i] = bodies.twist(i);

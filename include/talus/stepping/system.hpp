@@ -72,13 +72,14 @@ struct System {
         return attach(bodies.add(inertia, pose, twist, material), shape);
     }
 
-    /// Adds an obstacle that moves as prescribed; a pose in place of a motion makes it stand still.
+    /// Adds an obstacle that moves as prescribed, where it is at `time()`; a pose in place of a
+    /// motion makes it stand still.
     template <Shape<Dim> S>
     BodyIndex add_obstacle(const S& shape, PrescribedMotion<Dim> motion = {},
                            MaterialIndex material = 0) {
         check_material(material);
         const BodyIndex body =
-            attach(bodies.add_obstacle(motion.pose(0.0), motion.twist(0.0), material), shape);
+            attach(bodies.add_obstacle(motion.pose(time_), motion.twist(time_), material), shape);
         obstacles.push_back({body, std::move(motion)});
         return body;
     }
@@ -100,8 +101,13 @@ struct System {
     /// Another number whenever some shape is another; copies of a system share it.
     std::uint64_t shapes_version() const { return shapes_version_; }
 
-    /// Puts all obstacles where they are at time t [s].
-    void place_obstacles(double t);
+    /// Puts all obstacles where they are at time t [s]. With `reach` [s] it checks that poses and
+    /// twists belong together, see `place`.
+    void place_obstacles(double t, double reach = 0.0);
+    /// Of the places of the obstacles [s].
+    double time() const { return time_; }
+    /// After the obstacles were put back where they were at another time.
+    void set_time(double t) noexcept { time_ = t; }
 
     /// The law of a contact: that of the two bodies' materials.
     const Law& law_of(const ContactKey& key) const {
@@ -121,6 +127,7 @@ struct System {
     static double radius_of(const ShapeType& shape);
     static std::uint64_t new_version();
 
+    double time_ = 0.0;
     std::vector<ShapeType> shapes_;
     std::vector<double> bounding_radius_;
     std::uint64_t shapes_version_ = 0;
@@ -132,9 +139,10 @@ struct System {
 
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
-void System<Dim, Law, ShapeType>::place_obstacles(double t) {
+void System<Dim, Law, ShapeType>::place_obstacles(double t, double reach) {
     for (const Obstacle& obstacle : obstacles)
-        place(bodies, static_cast<std::size_t>(obstacle.body), obstacle.motion, t);
+        place(bodies, static_cast<std::size_t>(obstacle.body), obstacle.motion, t, reach);
+    time_ = t;
 }
 
 template <int Dim, class Law, class ShapeType>

@@ -77,8 +77,8 @@ class ConeSystem {
             r[c] = scaled.template segment<Dim>(first(c)) * scale_[c];
     }
 
-    /// The residual of ResidualMeasure at r, the larger of the whole and the worst contact's, with
-    /// u = W r + q.
+    /// The residual of ResidualMeasure at r, with u = W r + q: the larger of the whole and, where
+    /// the measure was given the free velocities, the worst contact's.
     double residual(const Vec& r, const Vec& u) const;
 
     /// What one factorisation and its solves cost, in visits of a contact by a sweep over the
@@ -217,6 +217,7 @@ void ConeSystem<Dim>::multiply(const Vec& r, Vec& u) const {
 template <int Dim>
 double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
     double sum = 0.0;
+    const bool by_contacts = scales_.contact_count() == contact_count();
     scales_.begin();
     for (std::size_t c = 0; c < contact_count(); ++c) {
         const Vector<Dim> rc = r.template segment<Dim>(first(c));
@@ -225,13 +226,13 @@ double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
         const double share = (rc - cones_[c].project(rc - corrected)).squaredNorm();
         sum += share;
         const double mass = scale_[c] * scale_[c];
-        scales_.see(c, share / mass, rc.squaredNorm() / mass);
+        if (by_contacts) scales_.see(c, share / mass, rc.squaredNorm() / mass);
     }
     const double scale = std::max(r.norm(), q_.norm());
     // 0 / 0 is solved; a problem at rest without impulses has no scale to be wrong by.
     if (sum == 0.0) return 0.0;
     Residual result{.relative = scale == 0.0 ? 1.0 : std::sqrt(sum) / scale};
-    scales_.judge(result);
+    if (by_contacts) scales_.judge(result);
     return result.largest();
 }
 

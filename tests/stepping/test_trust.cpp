@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a simulation must not do in silence: move when it throws, miss a change, believe an
+// inaccurate solver, or depend on settings that a first program would not make.
+#include <talus/solver/automatic.hpp>
+#include <talus/stepping/equilibrium.hpp>
+#include <talus/stepping/gap_correction.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "common/dimensions.hpp"
+#include "heap.hpp"
+
+using namespace experiment;
+
+namespace {
+
+struct Refusal : std::runtime_error {
+    Refusal() : std::runtime_error("refused") {}
+};
+
+/// Gauss-Seidel that throws when told to.
+template <int Dim>
+struct Moody {
+    talus::GaussSeidel<Dim, talus::DefaultLaw<Dim>> inner;
+    bool refuses = false;
+    talus::SolveReport solve(const talus::ContactProblem<Dim, talus::DefaultLaw<Dim>>& p,
+                             std::span<V<Dim>> r) {
+        const talus::SolveReport report = inner.solve(p, r);
+        if (refuses) throw Refusal();
+        return report;
+    }
+};
+template <int Dim>
+struct MoodyTypes : Corrected<Dim> {
+    using Solver = Moody<Dim>;
+};
+
+template <int Dim>
+std::vector<double> everything(const talus::Bodies<Dim>& bodies) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+        for (const double x : bodies.position[i]) all.push_back(x);
+        const talus::Matrix<Dim> axes = bodies.rotation[i].matrix();
+        for (int k = 0; k < Dim * Dim; ++k) all.push_back(axes.data()[k]);
+        for (const double x : bodies.velocity[i]) all.push_back(x);
+        for (const double x : bodies.spin[i]) all.push_back(x);
+    }
+    return all;
+}
+bool equal_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), 8 * a.size()) == 0;
+}
+
+template <int Dim>
+talus::Simulation<Dim> boxes_on_a_floor(int count, double half = 0.5) {
+    talus::Simulation<Dim> sim(law<Dim>(0.4));
+    sim.system().gravity = -g * up<Dim>();
+    sim.system().add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
+    for (int k = 0; k < count; ++k)
+        sim.system().add(talus::Box<Dim>(V<Dim>::Constant(half)), 1000.0,
+                         {(2 * k + 1) * half * up<Dim>(), {}});
+    return sim;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(stepping_trust)
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_step_that_throws_leaves_everything_as_it_was, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto undisturbed = heap<Dim, MoodyTypes<Dim>>(3, 3, law<Dim>(0.4), 2e-3);
+    auto sim = undisturbed;
+    bool force_refuses = false, motion_refuses = false;
+    double not_finite = 0.0;
+    const auto equip = [](auto& s, const bool& force, const bool& motion, const double& extra) {
+        s.system().forces.push_back([&](double, const talus::Bodies<D::value>&,
+                                        std::span<talus::Wrench<D::value>> wrenches) {
+            wrenches[0].force[0] += extra;
+            if (force) throw Refusal();
+        });
+        const auto place = [&s, &motion](double t) {
+            // At the end of the step, when all else is done.
+            if (motion && t > s.time() + 0.75 * s.params().h) throw Refusal();
+            return talus::Pose<D::value>{(t - 5.0) * up<D::value>(), {}};
+        };
+        const auto rise = [](double) { return talus::Twist<D::value>{up<D::value>()}; };
+        s.system().add_obstacle(talus::Ball<D::value>(0.1),
+                                talus::PrescribedMotion<D::value>(place, rise));
+    };
+    const bool never = false;
+    const double nothing = 0.0;
+    equip(sim, force_refuses, motion_refuses, not_finite);
+    equip(undisturbed, never, never, nothing);
+    for (int k = 0; k < 150; ++k) {
+        sim.step();
+        undisturbed.step();
+    }
+    const auto before = everything(sim.system().bodies);
+    const auto remembered = sim.impulse_cache().size();
+    const auto contacts = sim.data().contact_count();
+    BOOST_TEST(contacts > 5u);
+    const auto refused = [&](bool& by) {
+        by = true;
+        for (int k = 0; k < 3; ++k) BOOST_CHECK_THROW(sim.step(), Refusal);
+        by = false;
+        BOOST_TEST(equal_bits(everything(sim.system().bodies), before));
+        BOOST_TEST(sim.step_count() == 150);
+        BOOST_TEST(sim.impulse_cache().size() == remembered);
+        BOOST_TEST(sim.data().contact_count() == contacts);
+        BOOST_TEST(sim.system().time() == undisturbed.system().time());
+    };
+    refused(force_refuses);
+    refused(sim.solver().refuses);
+    refused(motion_refuses);
+    not_finite = std::numeric_limits<double>::quiet_NaN();
+    BOOST_CHECK_THROW(sim.step(), talus::input_error);
+    not_finite = 0.0;
+    sim.gap_correction().params.solver.max_sweeps = -1;  // noticed only when it is solved
+    try {
+        sim.step();
+        undisturbed.step();
+    } catch (const talus::input_error&) {
+        BOOST_TEST(equal_bits(everything(sim.system().bodies), before));
+    }
+    sim.gap_correction().params.solver.max_sweeps = 50;
+    for (int k = 0; k < 50; ++k) {
+        sim.step();
+        undisturbed.step();
+    }
+    BOOST_TEST(
+        equal_bits(everything(sim.system().bodies), everything(undisturbed.system().bodies)));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_body_that_grows_is_met, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim> sim(law<Dim>(0.3));
+    auto& system = sim.system();
+    system.add(talus::Ball<Dim>(0.5), 1000.0, {V<Dim>::Zero(), {}});
+    const auto second = system.add(talus::Ball<Dim>(0.5), 1000.0, {2.0 * V<Dim>::Unit(0), {}});
+    sim.step();
+    BOOST_TEST(sim.data().contact_count() == 0u);
+    system.set_shape(second, talus::Ball<Dim>(1.7));
+    BOOST_TEST(system.bounding_radius()[1] >= 1.7);
+    sim.step();
+    BOOST_TEST(sim.data().contact_count() == 1u);
+    BOOST_CHECK_THROW(system.set_shape(2, talus::Ball<Dim>(1.0)), talus::input_error);
+    BOOST_CHECK_THROW(system.set_shape(-1, talus::Ball<Dim>(1.0)), talus::input_error);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(an_obstacle_that_is_set_free_is_met, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim> sim(law<Dim>(0.3));
+    auto& system = sim.system();
+    system.add_obstacle(talus::Ball<Dim>(0.5), talus::Pose<Dim>{});
+    system.add_obstacle(talus::Ball<Dim>(0.5), talus::Pose<Dim>{0.9 * V<Dim>::Unit(0), {}});
+    sim.step();
+    BOOST_TEST(sim.data().contact_count() == 0u);
+    system.bodies.inverse_mass[1] = 1.0;
+    sim.step();
+    BOOST_TEST(sim.data().contact_count() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_body_without_a_shape_is_named, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim> sim(law<Dim>(0.3));
+    sim.system().bodies.add({1.0, talus::AngularVector<Dim>::Ones()}, {});
+    BOOST_CHECK_THROW(sim.step(), talus::input_error);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(boxes_at_rest_are_an_equilibrium_with_all_defaults, D, dimensions) {
+    constexpr int Dim = D::value;
+    for (const int count : {1, 2, 5}) {
+        auto sim = boxes_on_a_floor<Dim>(count);
+        const auto report = talus::equilibrium(sim.system());
+        BOOST_TEST((report.verdict == talus::Verdict::equilibrium), report.reason);
+        BOOST_TEST(report.data.contact_count() >= static_cast<std::size_t>(2 * count));
+    }
+    auto hovering = boxes_on_a_floor<Dim>(1);
+    hovering.system().bodies.position[1] += 1e-3 * up<Dim>();
+    BOOST_TEST((talus::equilibrium(hovering.system()).verdict == talus::Verdict::moving));
+    // Light bodies that fall are not hidden by heavy loads elsewhere.
+    auto two = boxes_on_a_floor<Dim>(1);
+    two.system().gravity.setZero();
+    two.system().forces.push_back(
+        [](double, const talus::Bodies<Dim>&, std::span<talus::Wrench<Dim>> wrenches) {
+            wrenches[1].force -= 1e12 * up<Dim>();
+            wrenches[2].force += V<Dim>::Unit(0);
+        });
+    two.system().add(talus::Ball<Dim>(0.5), 1000.0, {5.0 * up<Dim>(), {}});
+    BOOST_TEST((talus::equilibrium(two.system()).verdict == talus::Verdict::moving));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_verdict_needs_an_accurate_solver, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = boxes_on_a_floor<Dim>(5);
+    talus::GaussSeidel<Dim, talus::DefaultLaw<Dim>> rough({.max_sweeps = 5, .tolerance = 1e-8});
+    const auto report = talus::equilibrium(sim.system(), {}, rough);
+    BOOST_TEST((report.verdict == talus::Verdict::undecided));
+    BOOST_TEST(report.reason.find("residual") != std::string::npos);
+}
+
+// M / m from 1e3 to 1e9: the heavy ball's fall shows in no sum over contacts.
+BOOST_AUTO_TEST_CASE_TEMPLATE(light_balls_under_heavy_ones_carry_them_or_miss, D, dimensions) {
+    constexpr int Dim = D::value;
+    using Law = talus::DefaultLaw<Dim>;
+    const auto carried = [](auto solver, double r) {
+        talus::System<Dim, Law> system(law<Dim>(0.3));
+        system.gravity = -g * up<Dim>();
+        system.add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
+        system.add(talus::Ball<Dim>{r}, 2000.0, {r * up<Dim>(), {}});
+        system.add(talus::Ball<Dim>{1.0}, 2000.0, {(2 * r + 1.0) * up<Dim>(), {}});
+        talus::MoreauMidpoint<Dim, Law, talus::AnyShape<Dim>, talus::HierarchicalGrid<Dim>> step;
+        talus::StepData<Dim, Law> data;
+        const double weight = (system.bodies.mass(1) + system.bodies.mass(2)) * g * 1e-3;
+        step.step(system, 0.0, 1e-3, {.contact_tolerance = 1e-9 * r}, solver, data);
+        double floor = 0.0;
+        for (const auto& r_c : data.impulse) floor = std::max(floor, r_c[0]);
+        const bool converged = data.report.status == talus::SolveStatus::converged;
+        return std::pair{converged, floor / weight};
+    };
+    for (const double r : {0.1, 0.01, 0.001})
+        for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+            const auto [swept, floor] = carried(
+                talus::GaussSeidel<Dim, Law>({.max_sweeps = 1000, .tolerance = tolerance}), r);
+            if (swept) BOOST_TEST(std::abs(floor - 1.0) <= 2.0 * tolerance + 1e-12);
+            const auto [solved, load] =
+                carried(talus::Automatic<Dim, Law>({.tolerance = tolerance}), r);
+            // Solved up to a ratio of masses of a million, and never wrong in silence.
+            if (std::pow(r, -Dim) < 1.1e6) BOOST_TEST(solved);
+            if (solved) BOOST_TEST(std::abs(load - 1.0) <= 2.0 * tolerance + 1e-12);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(a_tower_of_fifty_squares_stands_with_all_defaults) {
+    auto sim = boxes_on_a_floor<2>(50, 0.005);
+    const auto run = sim.run(0.5);
+    BOOST_TEST(run.certified(), to_string(run));
+    double turned = 0.0;
+    for (const auto& rotation : sim.system().bodies.rotation)
+        turned = std::max(turned, std::abs(rotation.angle()));
+    // Fallen after 1 to 2 s with tolerances of 1e-2, by when half a second turns it by 0.01.
+    BOOST_TEST(turned < 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_first_pile_misses_no_tolerance, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = heap<Dim>(Dim == 2 ? 8 : 4, Dim == 2 ? 10 : 5, law<Dim>(0.4), 2e-3);
+    const auto run = sim.run(0.6);
+    BOOST_TEST(run.missed == 0, to_string(run));
+    BOOST_TEST(run.steps == 300);
+    BOOST_TEST(run.residual.value > 0.0);
+    BOOST_TEST(run.residual.value <= 1e-3);
+    BOOST_TEST(run.residual.b >= 0);
+    BOOST_TEST(to_string(run).find("300 steps, 0 missed") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_says_what_it_missed) {
+    auto sim = heap<2>(6, 6, law<2>(0.4), 2e-3);
+    sim.solver().params.max_iterations = 2;
+    const auto run = sim.run(0.4);
+    BOOST_TEST(run.missed > 10);
+    BOOST_TEST(!run.certified());
+    BOOST_TEST(run.residual.value > 1e-3);
+    BOOST_TEST(run.overlap.value > 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(durations_that_no_run_can_make_are_refused) {
+    auto sim = heap<2>(2, 1, law<2>(0.4), 1e-3);
+    for (const double duration :
+         {1e17, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
+        BOOST_CHECK_THROW(static_cast<void>(sim.run(duration)), talus::input_error);
+    BOOST_TEST(sim.step_count() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_free_top_keeps_its_energy_with_all_defaults) {
+    talus::Simulation<3> sim(law<3>(0.0));
+    sim.system().add(talus::Ball<3>(0.1), talus::Inertia<3>{1.0, V<3>(1.0, 2.0, 2.5)}, {},
+                     {V<3>::Zero(), V<3>(1.0, 3.0, 0.2)});
+    const double before = talus::kinetic_energy(sim.system().bodies, 0);
+    BOOST_TEST(sim.run(10.0).steps == 10000);
+    BOOST_TEST(talus::kinetic_energy(sim.system().bodies, 0) == before,
+               boost::test_tools::tolerance(1e-4));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(empty_braces_are_zero, D, dimensions) {
+    constexpr int Dim = D::value;
+    // On memory that holds something else.
+    alignas(64) unsigned char memory[sizeof(talus::Twist<Dim>)];
+    std::fill(std::begin(memory), std::end(memory), static_cast<unsigned char>(0x7b));
+    const auto* twist = new (memory) talus::Twist<Dim>{V<Dim>::Ones(), {}};
+    BOOST_TEST(twist->angular.is_zero());
+    std::fill(std::begin(memory), std::end(memory), static_cast<unsigned char>(0x7b));
+    twist = new (memory) talus::Twist<Dim>{{}, {}};
+    BOOST_TEST(twist->linear.is_zero());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
