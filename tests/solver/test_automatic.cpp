@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(hyperstatic_problems_are_solved_to_rounding, D, di
         talus::Automatic<dim, Law<dim>> solver({.tolerance = 1e-10});
         const auto& report = solver.solve(p, r);
         BOOST_TEST((report.status == talus::SolveStatus::converged));
-        BOOST_TEST(talus::residual(p, std::span<const talus::Vector<dim>>(r)).largest() <= 1e-10);
+        BOOST_TEST(talus::residual(p, std::span<const talus::Vector<dim>>(r)).relative <= 1e-10);
         BOOST_TEST(!report.stages.empty());
         int iterations = 0;
         for (const auto& stage : report.stages) iterations += stage.iterations;
@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(bodies_squeezed_by_obstacles_have_no_solution, D, 
     const auto& report = solver.solve(p, r);
     BOOST_TEST((report.status == talus::SolveStatus::no_solution));
     BOOST_TEST((r[0] == 1e12 * talus::Vector<dim>::Unit(0)));
-    const double residual = talus::residual(p, std::span<const talus::Vector<dim>>(r)).largest();
+    const double residual = talus::residual(p, std::span<const talus::Vector<dim>>(r)).relative;
     BOOST_TEST(residual > 0.0);
     BOOST_TEST(std::abs(report.residual - residual) <= 1e-6 * residual);
     // One obstacle that gives way as fast as the other comes: the ball moves with them.
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(where_no_engine_arrives_all_take_turns_and_the_best_impulse
     talus::Automatic<2, Law<2>> solver({.tolerance = 1e-12, .max_sweeps = 3000});
     const auto& report = solver.solve(p, r);
     BOOST_TEST((report.status == talus::SolveStatus::iteration_limit));
-    const double residual = talus::residual(p, std::span<const talus::Vector<2>>(r)).largest();
+    const double residual = talus::residual(p, std::span<const talus::Vector<2>>(r)).relative;
     BOOST_TEST(std::abs(residual - report.residual) <= 1e-6 * residual);
     int iterations = 0;
     for (const auto& stage : report.stages) {

@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(residual_is_the_measure, D, dimensions) {
         for (const double size : {0.0, 1.0, 1e6}) {
             std::vector<Vec> r(forms.problem.contact_count());
             for (auto& x : r) x = size * random.normal<dim>();
-            const double exact = talus::residual(forms.problem, std::span<const Vec>(r)).largest();
+            const double exact = talus::residual(forms.problem, std::span<const Vec>(r)).relative;
             forms.both([&](const auto& system) {
                 Eigen::VectorXd scaled, u;
                 system.to_scaled(r, scaled);

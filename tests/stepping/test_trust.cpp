@@ -225,15 +225,15 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(light_balls_under_heavy_ones_carry_them_or_miss, D
         return std::pair{converged, floor / weight};
     };
     for (const double r : {0.1, 0.01, 0.001})
-        for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+        for (const double tolerance : {1e-4, 1e-8, 1e-12}) {
             const auto [swept, floor] = carried(
                 talus::GaussSeidel<Dim, Law>({.max_sweeps = 1000, .tolerance = tolerance}), r);
-            if (swept) BOOST_TEST(std::abs(floor - 1.0) <= 2.0 * tolerance + 1e-12);
+            if (swept) BOOST_TEST(std::abs(floor - 1.0) <= 2.0 * std::sqrt(tolerance));
             const auto [solved, load] =
                 carried(talus::Automatic<Dim, Law>({.tolerance = tolerance}), r);
             // Solved up to a ratio of masses of a million, and never wrong in silence.
             if (std::pow(r, -Dim) < 1.1e6) BOOST_TEST(solved);
-            if (solved) BOOST_TEST(std::abs(load - 1.0) <= 2.0 * tolerance + 1e-12);
+            if (solved) BOOST_TEST(std::abs(load - 1.0) <= 2.0 * std::sqrt(tolerance));
         }
 }
 
@@ -244,8 +244,8 @@ BOOST_AUTO_TEST_CASE(a_tower_of_fifty_squares_stands_with_all_defaults) {
     double turned = 0.0;
     for (const auto& rotation : sim.system().bodies.rotation)
         turned = std::max(turned, std::abs(rotation.angle()));
-    // Fallen after 1 to 2 s with tolerances of 1e-2, by when half a second turns it by 0.01.
-    BOOST_TEST(turned < 1e-3);
+    // With tolerances of 1e-4 it falls within 2 s.
+    BOOST_TEST(turned < 0.01);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_first_pile_misses_no_tolerance, D, dimensions) {
@@ -255,8 +255,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_first_pile_misses_no_tolerance, D, dimensions) {
     BOOST_TEST(run.missed == 0, to_string(run));
     BOOST_TEST(run.steps == 300);
     BOOST_TEST(run.residual.value > 0.0);
-    BOOST_TEST(run.residual.value <= 1e-3);
-    BOOST_TEST(run.residual.b >= 0);
+    BOOST_TEST(run.residual.value <= 1e-6);
+    BOOST_TEST(run.contact_error.value <= 1e-3);
+    BOOST_TEST(run.contact_error.b >= 0);
     BOOST_TEST(to_string(run).find("300 steps, 0 missed") == 0u);
 }
 
@@ -266,7 +267,7 @@ BOOST_AUTO_TEST_CASE(a_run_says_what_it_missed) {
     const auto run = sim.run(0.4);
     BOOST_TEST(run.missed > 10);
     BOOST_TEST(!run.certified());
-    BOOST_TEST(run.residual.value > 1e-3);
+    BOOST_TEST(run.residual.value > 1e-6);
     BOOST_TEST(run.overlap.value > 0.0);
 }
 

@@ -87,7 +87,8 @@ class Automatic {
         report_ = {};
         let_engines_work(task);
         if (report_.status != SolveStatus::not_finite) {
-            memory_.return_to_best(task.r, report_.residual);
+            if (report_.status != SolveStatus::converged)
+                memory_.return_to_best(task.r, report_.residual);
             name_worst_contact(task);
         }
         // An engine that gained nothing leaves samples of what it tried at the end.
@@ -105,6 +106,7 @@ class Automatic {
         const Residual now =
             measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
                                             [&](std::size_t i) { return task.w.velocity(i); });
+        report_.contact_error = now.contact;
         report_.velocity_error = now.velocity;
         report_.worst_contact = now.worst_contact;
     }
@@ -190,6 +192,7 @@ class Automatic {
         report_.add_stage(name, part, part.residual);
         report_.status = part.status;
         report_.residual = part.residual;
+        report_.contact_error = part.contact_error;
         report_.velocity_error = part.velocity_error;
         report_.worst_contact = part.worst_contact;
         sweeps_left_ -= sweeps * part.iterations;
@@ -263,12 +266,15 @@ class Automatic {
         task.w.multiply(task.r, velocity_);
         const Residual residual = measure_.template evaluate<Law>(
             task.free_velocity, task.laws, task.r, [&](std::size_t i) { return velocity_[i]; });
-        if (residual.largest() <= report_.residual)
+        if (residual.relative <= report_.residual)
             report_.take(residual);
         else
             memory_.return_to_kept(task.r);
         report_.history.push_back({report_.iterations, report_.residual});
-        if (report_.residual <= params.tolerance) report_.status = SolveStatus::converged;
+        if (report_.meets(params.tolerance))
+            report_.status = SolveStatus::converged;
+        else if (report_.residual <= params.tolerance)
+            team_.aim_lower();
         return is_over(task);
     }
 

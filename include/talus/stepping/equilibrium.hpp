@@ -47,7 +47,7 @@ struct EquilibriumReport {
     double load_speed = 0.0;  ///< the same if there were no contacts [m/s]
     /// Largest point speed relative to that of the loads on the bodies connected by contacts [-].
     double relative_speed = 0.0;
-    double residual = 0.0;    ///< of the contact forces, at the worst contact [-]
+    double residual = 0.0;    ///< of the contact forces [-]
     StepData<Dim, Law> data;  ///< contacts and impulses; divide those by h for forces
 
     /// Contact force of contact c in its local frame [N].
@@ -111,24 +111,25 @@ void decide(EquilibriumReport<Dim, Law>& report, double rest) {
     // How many times its own size an error of the forces may show in the velocities. Where it shows
     // more, near a threshold, the residual of an undecided answer tells.
     constexpr double amplification = 100.0;
-    const double explained = amplification * report.residual;
+    const double error = std::max(report.residual, report.data.report.contact_error);
     const std::string found = "bodies move at " + text_of(report.relative_speed) +
                               " of the speed that the loads alone would give, the residual is " +
-                              text_of(report.residual);
+                              text_of(report.residual) + ", at the worst contact " +
+                              text_of(report.data.report.contact_error);
     if (report.data.report.status == SolveStatus::no_solution) {
         report.reason = "no forces obey all laws: " + found;
     } else if (report.relative_speed <= rest && report.residual <= rest) {
         report.verdict = Verdict::equilibrium;
         report.reason = "forces that hold all bodies were found: " + found;
-    } else if (report.relative_speed > std::max(rest, explained)) {
+    } else if (report.relative_speed > std::max(rest, amplification * error)) {
         report.verdict = Verdict::moving;
         report.reason = "something moves: " + found;
     } else {
-        report.reason = "the forces are not accurate enough to tell: " + found +
-                        ", but must be below " + text_of(rest) + " for rest, and the speed above " +
-                        text_of(amplification) +
-                        " residuals for motion: allow more iterations, or take Automatic, as near "
-                        "a threshold sweeps converge slowly";
+        report.reason =
+            "the forces are not accurate enough to tell: " + found + ", but must be below " +
+            text_of(rest) + " for rest, and the speed above " + text_of(amplification) +
+            " times the errors for motion: allow more iterations, or take Automatic, as near "
+            "a threshold sweeps converge slowly";
     }
 }
 

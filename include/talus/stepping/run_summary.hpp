@@ -26,7 +26,8 @@ struct RunSummary {
 
     std::int64_t steps = 0;
     std::int64_t missed = 0;  ///< steps whose solver did not converge
-    Worst residual;           ///< of SolveReport, at its worst contact [-]
+    Worst residual;           ///< of SolveReport [-]
+    Worst contact_error;      ///< of SolveReport: at the worst contact, in its own scale [-]
     Worst velocity_error;     ///< largest velocity by which a contact violated its law [m/s]
     /// Deepest overlap as a fraction of the bounding radius of the smaller body [-].
     Worst overlap;
@@ -42,6 +43,7 @@ struct RunSummary {
         if (data.report.status != SolveStatus::converged) ++missed;
         const std::size_t c = data.report.worst_contact;
         note(residual, data.report.residual, data, c);
+        note(contact_error, data.report.contact_error, data, c);
         note(velocity_error, data.report.velocity_error, data, c);
         const auto radius = system.bounding_radius();
         for (std::size_t k = 0; k < data.contact_count(); ++k) {
@@ -76,7 +78,9 @@ inline std::string to_string(const RunSummary& run) {
     };
     std::string text = std::to_string(run.steps) + " steps, " + std::to_string(run.missed) +
                        " missed the tolerance";
-    if (run.residual.value > 0.0) text += "; worst residual " + at(run.residual);
+    if (run.residual.value > 0.0)
+        text += "; worst residual " + detail::text_of(run.residual.value) + ", worst contact " +
+                at(run.contact_error);
     if (run.overlap.value > 0.0)
         text += "; deepest overlap, of the smaller radius, " + at(run.overlap);
     return text;

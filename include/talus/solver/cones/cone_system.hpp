@@ -43,7 +43,7 @@ class ConeSystem {
   public:
     using Vec = Eigen::VectorXd;
 
-    /// Takes a problem in. `measure` must have been prepared with the same problem.
+    /// Takes a problem in. `measure` must have been prepared with the same W.
     void assign(const DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity,
                 std::vector<FrictionCone<Dim>> cones, const ResidualMeasure<Dim>& measure);
     void assign(BodyMap<Dim> bodies, std::span<const Vector<Dim>> free_velocity,
@@ -77,8 +77,7 @@ class ConeSystem {
             r[c] = scaled.template segment<Dim>(first(c)) * scale_[c];
     }
 
-    /// The residual of ResidualMeasure at r, with u = W r + q: the larger of the whole and, where
-    /// the measure was given the free velocities, the worst contact's.
+    /// The residual eta of ResidualMeasure at r, with u = W r + q.
     double residual(const Vec& r, const Vec& u) const;
 
     /// What one factorisation and its solves cost, in visits of a contact by a sweep over the
@@ -108,8 +107,7 @@ class ConeSystem {
     void apply_inverse(const Vec& b, Vec& x) const;
 
     std::vector<FrictionCone<Dim>> cones_;
-    std::vector<double> scale_;     ///< sqrt(rho_c)
-    mutable ContactScales scales_;  ///< for the worst contact
+    std::vector<double> scale_;  ///< sqrt(rho_c)
     Vec q_;
     bool in_body_space_ = false;
     bool analyzed_ = false;
@@ -156,7 +154,6 @@ void ConeSystem<Dim>::set_common(std::span<const Vector<Dim>> free_velocity,
         scale_[c] = std::sqrt(measure.effective_mass(c));
         q_.template segment<Dim>(first(c)) = scale_[c] * free_velocity[c];
     }
-    scales_ = measure.scales();
     analyzed_ = false;
 }
 
@@ -217,23 +214,15 @@ void ConeSystem<Dim>::multiply(const Vec& r, Vec& u) const {
 template <int Dim>
 double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
     double sum = 0.0;
-    const bool by_contacts = scales_.contact_count() == contact_count();
-    scales_.begin();
     for (std::size_t c = 0; c < contact_count(); ++c) {
         const Vector<Dim> rc = r.template segment<Dim>(first(c));
         const Vector<Dim> corrected =
             de_saxce_corrected<Dim>(u.template segment<Dim>(first(c)), cones_[c].mu);
-        const double share = (rc - cones_[c].project(rc - corrected)).squaredNorm();
-        sum += share;
-        const double mass = scale_[c] * scale_[c];
-        if (by_contacts) scales_.see(c, share / mass, rc.squaredNorm() / mass);
+        sum += (rc - cones_[c].project(rc - corrected)).squaredNorm();
     }
     const double scale = std::max(r.norm(), q_.norm());
     // 0 / 0 is solved; a problem at rest without impulses has no scale to be wrong by.
-    if (sum == 0.0) return 0.0;
-    Residual result{.relative = scale == 0.0 ? 1.0 : std::sqrt(sum) / scale};
-    if (by_contacts) scales_.judge(result);
-    return result.largest();
+    return sum == 0.0 ? 0.0 : scale == 0.0 ? 1.0 : std::sqrt(sum) / scale;
 }
 
 template <int Dim>

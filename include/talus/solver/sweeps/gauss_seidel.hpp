@@ -159,7 +159,7 @@ class GaussSeidel {
             const double change = sweep(task);
             bool go_on = true;
             if constexpr (!std::is_same_v<std::remove_cvref_t<OnSweep>, Ignore>)
-                go_on = notify(on_sweep, k, kernel_.evaluate(task).largest());
+                go_on = notify(on_sweep, k, kernel_.evaluate(task).relative);
             // Written so that a change that is not a number calls for a look.
             const bool hopeful = !(change * ratio > params.tolerance);
             if (go_on && k != params.max_sweeps && k != next_look && !hopeful) continue;
@@ -190,14 +190,14 @@ class GaussSeidel {
         if (!residual.finite()) {
             std::copy(last_finite_.begin(), last_finite_.end(), task.r.begin());
             report_.status = SolveStatus::not_finite;
-        } else if (residual.largest() <= params.tolerance) {
+        } else if (residual.meets(params.tolerance)) {
             report_.status = SolveStatus::converged;
         } else {
             std::copy(task.r.begin(), task.r.end(), last_finite_.begin());
         }
         report_.take(residual);
         if (report_.history.size() == history_limit) report_.history.pop_back();
-        report_.history.push_back({sweeps, residual.largest()});
+        report_.history.push_back({sweeps, residual.relative});
         return report_.status != SolveStatus::iteration_limit;
     }
 
