@@ -125,6 +125,63 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(nothing_over_nothing_is_zero, D, dimensions) {
     BOOST_CHECK_THROW(talus::residual(empty, std::span<const Vec>(r)), talus::input_error);
 }
 
+// A mass on a mass on the floor, W = (1/m + 1/M, -1/m; -1/m, 1/m): the floor carries both.
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_heavy_mass_that_falls_onto_a_light_one_is_seen, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    using Law = talus::Signorini<dim>;
+    for (const double ratio : {1.0, 1e3, 1e6, 1e9}) {
+        auto p = stack_of_particles<dim>({1.0, ratio}, Law{});
+        p.free_velocity[0] = -Vec::Unit(0);  // both fall at 1 m/s
+        p.free_velocity[1] = Vec::Zero();
+        std::vector<Vec> r{(1.0 + ratio) * Vec::Unit(0), ratio * Vec::Unit(0)};
+        BOOST_TEST(talus::residual(p, std::span<const Vec>(r)).contact < 1e-6);
+        // The light one stands, the heavy one falls on as if there were nothing.
+        r = {Vec(1.04 * Vec::Unit(0)), Vec(0.04 * Vec::Unit(0))};
+        const auto wrong = talus::residual(p, std::span<const Vec>(r));
+        BOOST_TEST(wrong.contact > 0.9);
+        BOOST_TEST(wrong.velocity > 0.9);
+        BOOST_TEST(wrong.worst_contact == 1U);
+        BOOST_TEST(!wrong.meets(1e-4));
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_fast_elsewhere_hides_nothing, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    auto p = twice(particle<dim, talus::Signorini<dim>>(-Vec::Unit(0), {}));
+    p.free_velocity[1] = -1e6 * Vec::Unit(0);
+    std::vector<Vec> r{0.5 * Vec::Unit(0), 1e6 * Vec::Unit(0)};
+    const auto slow = talus::residual(p, std::span<const Vec>(r));
+    BOOST_TEST(slow.relative < 1e-6);
+    BOOST_TEST(slow.contact == 0.5, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(slow.velocity == 0.5, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(slow.worst_contact == 0U);
+    BOOST_TEST(!slow.meets(1e-4));
+    r[0] = Vec::Unit(0);
+    BOOST_TEST(talus::residual(p, std::span<const Vec>(r)).meets(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(islands_are_the_same_by_bodies_and_by_blocks, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(43);
+    auto p =
+        RandomProblem<dim, talus::Coulomb<dim>>{.bodies = 12, .contacts = 9}.make(random, {0.5});
+    const talus::DelassusProduct<dim> product(p.jacobian, p.inverse_mass);
+    const talus::DelassusSparse<dim> blocks(p.jacobian, p.inverse_mass);
+    std::vector<std::uint32_t> by_bodies(9), by_blocks(9);
+    product.islands(by_bodies);
+    blocks.islands(by_blocks);
+    std::size_t together = 0;
+    for (std::size_t i = 0; i < 9; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            BOOST_TEST((by_bodies[i] == by_bodies[j]) == (by_blocks[i] == by_blocks[j]));
+            together += by_bodies[i] == by_bodies[j] ? 1 : 0;
+        }
+    BOOST_TEST(together > 0U);
+    BOOST_TEST(together < 36U);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_not_finite_shows, D, dimensions) {
     constexpr int dim = D::value;
     using Vec = talus::Vector<dim>;
