@@ -22,8 +22,8 @@ struct Jacobi {
         report = {};
         for (; report.iterations < 20000; ++report.iterations) {
             if (report.iterations % 10 == 0) {
-                report.take(talus::residual<Dim>(problem, r));
-                if (report.meets(tolerance)) {
+                report.residual = talus::residual<Dim>(problem, r).relative;
+                if (report.residual <= tolerance) {
                     report.status = talus::SolveStatus::converged;
                     return report;
                 }
@@ -36,7 +36,7 @@ struct Jacobi {
             }
             for (std::size_t i = 0; i < r.size(); ++i) r[i] += damping * (next[i] - r[i]);
         }
-        report.take(talus::residual<Dim>(problem, r));
+        report.residual = talus::residual<Dim>(problem, r).relative;
         return report;
     }
 };

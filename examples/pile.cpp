@@ -63,7 +63,7 @@ Pile<Dim> make_simulation(const talus::Scene<Dim>& scene, const Options& o) {
     Pile<Dim> sim({{o.mu.value_or(scene.mu)}, o.restitution, 0.0}, params);
     sim.gap_correction().params.fraction = o.correction;
     sim.solver().params.tolerance = o.tolerance;
-    sim.solver().params.max_iterations = static_cast<int>(o.max_sweeps);
+    sim.solver().params.max_sweeps = static_cast<int>(o.max_sweeps);
 
     auto& system = sim.system();
     const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);

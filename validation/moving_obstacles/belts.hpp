@@ -9,10 +9,9 @@ namespace validation {
 /// The floor with a surface that moves along itself with `velocity(t)` [m/s].
 template <int Dim, class Velocity>
 talus::BodyIndex add_belt(World<Dim>& world, Velocity velocity) {
-    return world.add_obstacle(
-        talus::HalfSpace<Dim>(up<Dim>()),
-        talus::PrescribedMotion<Dim>().with_surface(
-            [velocity](double t) { return talus::Twist<Dim>{velocity(t)}; }));
+    return world.add_obstacle(talus::HalfSpace<Dim>(up<Dim>()),
+                              talus::PrescribedMotion<Dim>().with_surface(
+                                  [velocity](double t) { return talus::Twist<Dim>{velocity(t)}; }));
 }
 
 /// The floor as a table that turns about the last axis through the origin at `rate` [rad/s].

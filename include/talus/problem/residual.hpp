@@ -28,12 +28,6 @@ struct Residual {
     double velocity = 0.0;
     double worst_share = 0.0;  ///< largest error over the root mean square scale of a contact [-]
 
-    /// What solvers call converged: eta is at or below the tolerance, and zeta at or below its
-    /// root. Sums over all contacts converge faster than the worst one: in piles at rest zeta is
-    /// some 400 eta, and 1e-3 of it is what a tower of fifty blocks needs to stand.
-    bool meets(double tolerance) const {
-        return relative <= tolerance && contact <= std::sqrt(tolerance);
-    }
     bool finite() const { return std::isfinite(relative); }
 };
 
@@ -115,7 +109,8 @@ class ContactScales {
     double fastest_ = 0.0;  ///< free velocity of any contact [m/s]
 };
 
-/// The one measure that every solver is judged by. With u = W r + u_free,
+/// The one measure that every solver is judged by, by eta; zeta tells what eta may hide. With u = W
+/// r + u_free,
 ///
 ///   eta  = || D^-1/2 (r - f) || / max( || D^-1/2 r ||, || D^1/2 u_free || ),   D = diag(rho_c),
 ///   zeta = max_c  | r_c - f_c | / ( rho_c V_c ),

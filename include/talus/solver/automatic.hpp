@@ -87,9 +87,8 @@ class Automatic {
         report_ = {};
         let_engines_work(task);
         if (report_.status != SolveStatus::not_finite) {
-            if (report_.status != SolveStatus::converged)
-                memory_.return_to_best(task.r, report_.residual);
-            name_worst_contact(task);
+            memory_.return_to_best(task.r, report_.residual);
+            judge_contacts(task);
         }
         // An engine that gained nothing leaves samples of what it tried at the end.
         if (report_.history.back().residual != report_.residual)
@@ -97,9 +96,10 @@ class Automatic {
         return report_;
     }
 
-    /// Of the impulses returned, which need not be those measured last.
+    /// What the report says of single contacts: of the impulses returned, which need not be those
+    /// measured last.
     template <class T>
-    void name_worst_contact(T& task) {
+    void judge_contacts(T& task) {
         measure_.template prepare<std::remove_reference_t<decltype(task.w)>, Law>(
             task.w, task.free_velocity, task.laws);
         task.w.start(task.r);
@@ -192,9 +192,6 @@ class Automatic {
         report_.add_stage(name, part, part.residual);
         report_.status = part.status;
         report_.residual = part.residual;
-        report_.contact_error = part.contact_error;
-        report_.velocity_error = part.velocity_error;
-        report_.worst_contact = part.worst_contact;
         sweeps_left_ -= sweeps * part.iterations;
         return is_over(task);
     }
@@ -264,17 +261,17 @@ class Automatic {
         team_.to_impulses(task.r);
         velocity_.resize(task.r.size());
         task.w.multiply(task.r, velocity_);
-        const Residual residual = measure_.template evaluate<Law>(
-            task.free_velocity, task.laws, task.r, [&](std::size_t i) { return velocity_[i]; });
-        if (residual.relative <= report_.residual)
-            report_.take(residual);
+        const double residual =
+            measure_
+                .template evaluate<Law>(task.free_velocity, task.laws, task.r,
+                                        [&](std::size_t i) { return velocity_[i]; })
+                .relative;
+        if (residual <= report_.residual)
+            report_.residual = residual;
         else
             memory_.return_to_kept(task.r);
         report_.history.push_back({report_.iterations, report_.residual});
-        if (report_.meets(params.tolerance))
-            report_.status = SolveStatus::converged;
-        else if (report_.residual <= params.tolerance)
-            team_.aim_lower();
+        if (report_.residual <= params.tolerance) report_.status = SolveStatus::converged;
         return is_over(task);
     }
 

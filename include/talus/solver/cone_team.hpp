@@ -62,8 +62,6 @@ class ConeTeam<Dim, Law> {
         if (system_.factorization_bytes() > max_bytes) factorizations_left_ = 0;
         return true;
     }
-    /// The tolerance of the whole was met, the worst contact's was not.
-    void aim_lower() { tolerance_ *= 0.01; }
     /// In visits of a contact.
     double factorization_cost() { return system_.factorization_cost(); }
     bool may_factorize() const { return factorizations_left_ > 0; }

@@ -11,7 +11,7 @@ namespace talus {
 
 /// How a solve ended.
 enum class SolveStatus {
-    converged,        ///< the returned impulses meet the tolerance, see Residual::meets
+    converged,        ///< the residual of the returned impulses is at or below the tolerance
     iteration_limit,  ///< it is not: allow more iterations, accept a larger tolerance or change the
                       ///< solver
     stalled,          ///< it is not, and more iterations of this solver would not help
@@ -40,16 +40,14 @@ struct SolveReport {
     SolveStatus status = SolveStatus::iteration_limit;
     int iterations = 0;     ///< sweeps, factorisations...: what the solver counts
     double residual = 0.0;  ///< relative natural-map residual of the exact law, of the whole [-]
-    double contact_error = 0.0;   ///< the same of the worst contact, in the scale of its island [-]
-    double velocity_error = 0.0;  ///< largest velocity by which a contact violates its law [m/s]
-    std::size_t worst_contact = 0;        ///< the contact that is worst in the scale of its island
+    /// The same of the worst contact, in the scale of its island [-]: some 400 residuals in a pile
+    /// at rest, up to 1 where a light grain under a heavy one was not solved.
+    double contact_error = 0.0;
+    double velocity_error = 0.0;    ///< largest velocity by which a contact violates its law [m/s]
+    std::size_t worst_contact = 0;  ///< the contact that is worst in the scale of its island
     std::vector<ResidualSample> history;  ///< residuals evaluated on the way, in order
     std::vector<SolveStage> stages;       ///< who did what, where several engines took part
 
-    /// Whether impulses with these errors count as converged.
-    bool meets(double tolerance) const {
-        return Residual{.relative = residual, .contact = contact_error}.meets(tolerance);
-    }
     void take(const Residual& r) {
         residual = r.relative;
         contact_error = r.contact;

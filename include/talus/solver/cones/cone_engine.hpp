@@ -107,7 +107,7 @@ class ConeEngine {
                            std::span<const Law> laws, std::span<Vector<Dim>> r, Source&& source);
     template <class W>
     void improve_impulses(const W& w, std::span<const Vector<Dim>> free_velocity,
-                          std::span<const Law> laws, std::span<Vector<Dim>> r, Residual begin);
+                          std::span<const Law> laws, std::span<Vector<Dim>> r, double begin);
 
     template <class W>
     Residual evaluate(const W& w, std::span<const Vector<Dim>> free_velocity,
@@ -168,26 +168,25 @@ const SolveReport& ConeEngine<Dim, Law, Engine>::run(const W& w,
     std::vector<FrictionCone<Dim>> cones = require_cones(laws);
     report_ = {};
     measure_.template prepare<W, Law>(w, free_velocity, laws);
-    const Residual measured = evaluate(w, free_velocity, laws, r);
-    report_.take(measured);
+    report_.take(evaluate(w, free_velocity, laws, r));
     const double begin = report_.residual;
     report_.history.push_back({0, begin});
     if (!std::isfinite(begin)) {
         report_.status = SolveStatus::not_finite;
         return report_;
     }
-    if (measured.meets(engine().params.tolerance)) {
+    if (begin <= engine().params.tolerance) {
         report_.status = SolveStatus::converged;
         return report_;
     }
     // What is left where neither the tolerance nor the limit is reached.
     report_.status = SolveStatus::stalled;
     system_.assign(source(), free_velocity, std::move(cones), measure_);
-    improve_impulses(w, free_velocity, laws, r, measured);
+    improve_impulses(w, free_velocity, laws, r, begin);
     // The last sample is the residual in the report: in the caller's units, as the first one.
     report_.history.push_back({report_.iterations, report_.residual});
     if (report_.status == SolveStatus::no_solution) return report_;
-    if (report_.meets(engine().params.tolerance))
+    if (report_.residual <= engine().params.tolerance)
         report_.status = SolveStatus::converged;
     else if (report_.iterations >= engine().params.max_iterations)
         report_.status = SolveStatus::iteration_limit;
@@ -201,31 +200,19 @@ template <class W>
 void ConeEngine<Dim, Law, Engine>::improve_impulses(const W& w,
                                                     std::span<const Vector<Dim>> free_velocity,
                                                     std::span<const Law> laws,
-                                                    std::span<Vector<Dim>> r, Residual begin) {
-    const double tolerance = engine().params.tolerance;
-    // Engines know the sum over all contacts alone: where the worst contact asks for more, they go
-    // on with less to aim at.
-    for (double aim = tolerance; aim >= 1e-6 * tolerance; aim *= 0.01) {
-        best_residual_ = begin.relative;
-        Eigen::VectorXd best;
-        system_.to_scaled(r, best);
-        engine().params.tolerance = aim;
-        engine().iterate(best);
-        engine().params.tolerance = tolerance;
-        if (!(best_residual_ < begin.relative)) return;
-        kept_.assign(r.begin(), r.end());
-        system_.to_impulses(best, r);
-        const Residual end = evaluate(w, free_velocity, laws, r);
-        if (!(end.relative < begin.relative)) {
-            std::copy(kept_.begin(), kept_.end(), r.begin());
-            return;
-        }
+                                                    std::span<Vector<Dim>> r, double begin) {
+    best_residual_ = begin;
+    Eigen::VectorXd best;
+    system_.to_scaled(r, best);
+    engine().iterate(best);
+    if (!(best_residual_ < begin)) return;
+    kept_.assign(r.begin(), r.end());
+    system_.to_impulses(best, r);
+    const Residual end = evaluate(w, free_velocity, laws, r);
+    if (end.relative < begin)
         report_.take(end);
-        begin = end;
-        if (end.relative > tolerance || end.meets(tolerance) ||
-            report_.iterations >= engine().params.max_iterations)
-            return;
-    }
+    else
+        std::copy(kept_.begin(), kept_.end(), r.begin());
 }
 
 }  // namespace talus

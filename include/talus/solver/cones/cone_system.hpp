@@ -77,7 +77,7 @@ class ConeSystem {
             r[c] = scaled.template segment<Dim>(first(c)) * scale_[c];
     }
 
-    /// The residual eta of ResidualMeasure at r, with u = W r + q.
+    /// The residual of ResidualMeasure at r, with u = W r + q.
     double residual(const Vec& r, const Vec& u) const;
 
     /// What one factorisation and its solves cost, in visits of a contact by a sweep over the

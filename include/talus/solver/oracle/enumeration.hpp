@@ -73,7 +73,7 @@ class Enumeration : public ConeEngine<Dim, Law, Enumeration<Dim, Law>> {
         require_in("number of contacts", static_cast<double>(laws.size()), 0,
                    static_cast<double>(max_contacts));
         ResidualMeasure<Dim> measure;
-        measure.template prepare<DelassusSparse<Dim>, Law>(w, free_velocity, laws);
+        measure.prepare(w);
         this->system_.assign(w, free_velocity, std::move(cones), measure);
         find_all();
         return solutions_;

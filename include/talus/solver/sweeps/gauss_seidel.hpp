@@ -190,7 +190,7 @@ class GaussSeidel {
         if (!residual.finite()) {
             std::copy(last_finite_.begin(), last_finite_.end(), task.r.begin());
             report_.status = SolveStatus::not_finite;
-        } else if (residual.meets(params.tolerance)) {
+        } else if (residual.relative <= params.tolerance) {
             report_.status = SolveStatus::converged;
         } else {
             std::copy(task.r.begin(), task.r.end(), last_finite_.begin());
