@@ -4,7 +4,7 @@
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/input.hpp>
 #include <talus/problem/islands.hpp>
-#include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
 
 #include <algorithm>
@@ -171,14 +171,12 @@ requires ContactSolver<Solver, Dim, Law> EquilibriumReport<Dim, Law> equilibrium
     return report;
 }
 
-/// The same with accelerated sweeps as accurate as `rest` asks for. Near a threshold they need
-/// some 1 / distance of them, and the verdict may be undecided where Automatic finds one.
+/// The same with Gauss-Seidel as accurate as `rest` asks for. Near a threshold it needs some
+/// 1 / distance sweeps, and the verdict may be undecided where Automatic finds one.
 template <int Dim, class Law, class ShapeType>
 EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
                                         const EquilibriumParams& params = {}) {
-    AcceleratedGaussSeidel<Dim, Law> solver({.max_iterations = 20000,
-                                             .tolerance = 0.01 * params.rest,
-                                             .acceleration = Acceleration::anderson});
+    GaussSeidel<Dim, Law> solver({.max_sweeps = 100000, .tolerance = 1e-4 * params.rest});
     return equilibrium(std::move(system), params, std::move(solver));
 }
 
