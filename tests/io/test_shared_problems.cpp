@@ -29,7 +29,8 @@ talus::Residual residual_at(const talus::AssembledProblem<Dim, talus::Coulomb<Di
     auto w = p.delassus;
     w.start(r);
     talus::ResidualMeasure<Dim> measure;
-    measure.prepare(w);
+    measure.template prepare<talus::DelassusSparse<Dim>, talus::Coulomb<Dim>>(w, p.free_velocity,
+                                                                              p.laws);
     return measure.template evaluate<talus::Coulomb<Dim>>(
         p.free_velocity, p.laws, r, [&](std::size_t i) { return w.velocity(i); });
 }

@@ -195,12 +195,12 @@ class ResidualMeasure {
     }
 
     /// The measure at r, where `velocity(i)` gives row i of W r, of the problem that `prepare` was
-    /// given.
+    /// given; without zeta if that was given W alone.
     template <ContactLaw<Rows> Law, class Velocity>
     Residual evaluate(std::span<const Vector<Rows>> free_velocity, std::span<const Law> laws,
                       std::span<const Vector<Rows>> r, Velocity&& velocity) {
         TALUS_CHECK(r.size() == rho_.size(), "one impulse per contact");
-        TALUS_CHECK(scales_.contact_count() == rho_.size(), "prepared with the free velocities");
+        const bool by_contacts = scales_.contact_count() == rho_.size();
         Residual result;
         double sum = 0.0, worst = 0.0;
         scales_.begin();
@@ -211,7 +211,8 @@ class ResidualMeasure {
             const double share = off.squaredNorm() / rho_[i] + 0.0 * u.sum();
             sum += share;
             if (share > worst || std::isnan(share)) worst = share;
-            scales_.see(i, share / rho_[i], r[i].squaredNorm() / (rho_[i] * rho_[i]));
+            if (by_contacts)
+                scales_.see(i, share / rho_[i], r[i].squaredNorm() / (rho_[i] * rho_[i]));
         }
         const double scale = this->scale(free_velocity, r);
         if (sum == 0.0 && std::isfinite(scale)) return result;
@@ -219,7 +220,7 @@ class ResidualMeasure {
         result.relative = no_scale ? 1.0 + 0.0 * sum : std::sqrt(sum) / scale + 0.0 * scale;
         const double count = static_cast<double>(rho_.size());
         result.worst_share = no_scale ? 1.0 : std::sqrt(worst * count) / scale;
-        scales_.judge(result);
+        if (by_contacts) scales_.judge(result);
         return result;
     }
 
