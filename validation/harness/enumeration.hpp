@@ -63,6 +63,7 @@ class Enumeration {
     /// is empty.
     void collect_corners(const Vector& a0, const Matrix& a, std::vector<Eigen::Index> active,
                          Eigen::Index next, std::vector<Vector>& corners) const;
+
     PlanarProblem p_;
     double speed_, impulse_ = 1.0, tolerance_;
     std::vector<PlanarSolution> solutions_;
