@@ -27,7 +27,7 @@ LAYERS = {
     "collision": {"core", "spatial", "geometry"},
     "assembly": {"core", "spatial", "collision", "dynamics", "law", "problem"},
     "stepping": PHYSICS | ALGEBRA | {"assembly"},
-    "sample": {"core", "spatial", "geometry", "dynamics"},
+    "sample": {"core", "spatial", "geometry", "collision/gjk", "dynamics"},
     "measure": PHYSICS | {"law", "problem"},
     "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
 }

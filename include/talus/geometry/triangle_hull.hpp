@@ -96,7 +96,7 @@ class TriangleHull {
         height_ = std::abs(unit.dot(points[d] - o));
         const Wide sign = volume({a, b, c}, d);
         if (!(height_ > flat) || sign == 0)
-            throw input_error("the vertices lie in a plane, but must span a volume");
+            throw input_error("the vertices lie flat in a plane, but must span a volume");
         const std::array<std::uint32_t, 4> v =
             sign < 0 ? std::array{a, b, c, d} : std::array{a, c, b, d};
         all_.push_back({{{v[0], v[1], v[2]}, {3, 1, 2}}, {}});
