@@ -29,6 +29,7 @@ LAYERS = {
     "stepping": PHYSICS | ALGEBRA | {"assembly"},
     "sample": {"core", "spatial", "geometry", "collision/gjk", "dynamics"},
     "measure": PHYSICS | {"law", "problem"},
+    "io/mesh": {"core", "io/line_reader"},
     "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
 }
 LONGEST_HEADER = 400

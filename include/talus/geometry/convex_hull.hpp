@@ -104,24 +104,6 @@ HullTolerance hull_tolerance(std::span<const Vector<Dim>> points, double extent,
     return {std::max(coincident * extent, rounded), rounded, few_digits};
 }
 
-struct Plane {
-    Vector<3> normal = Vector<3>::Zero();
-    double offset = 0.0;
-    double height(const Vector<3>& x) const { return normal.dot(x) - offset; }
-};
-
-/// The plane that ConvexCore gives a loop: along the sum of its triangles, through the mean corner.
-inline Plane plane_of(std::span<const Vector<3>> points, const VertexLoop& loop) {
-    Plane plane;
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-        plane.normal +=
-            (points[loop[k]] - points[loop[0]]).cross(points[loop[k + 1]] - points[loop[0]]);
-    plane.normal.normalize();
-    for (const std::uint32_t v : loop) plane.offset += plane.normal.dot(points[v]);
-    plane.offset /= static_cast<double>(loop.size());
-    return plane;
-}
-
 /// Joins the triangles of a hull that lie in one plane to a tolerance.
 class FaceMerger {
   public:
@@ -206,13 +188,23 @@ class FaceMerger {
                 if (visited_[t] == visit_ || group_[t] != none) continue;
                 visited_[t] = visit_;
                 const bool lies_in =
-                    areas_[t].dot(plane.normal) > same_side * areas_[t].norm() &&
+                    (areas_[t].dot(plane.normal) > same_side * areas_[t].norm() || is_sliver(t)) &&
                     std::ranges::all_of(triangles_[t].corners, [&](std::uint32_t v) {
                         return std::abs(plane.height(points_[v])) <= tolerance;
                     });
                 if (lies_in) members.push_back(t);
             }
         return members;
+    }
+
+    /// Whether the triangle is so narrow that its normal is that of the rounding.
+    bool is_sliver(std::uint32_t t) const {
+        double longest = 0.0;
+        for (std::size_t k = 0; k < 3; ++k)
+            longest = std::max(longest, (points_[triangles_[t].corners[k]] -
+                                         points_[triangles_[t].corners[(k + 1) % 3]])
+                                            .norm());
+        return areas_[t].norm() <= tolerance_ * longest;
     }
 
     /// The outline of each group, without the vertices where fewer than three groups meet; nothing
@@ -340,7 +332,7 @@ TALUS_FUNCTION ConvexHull convex_hull_of_cloud(std::span<const Vector<3>> points
     std::optional<std::vector<VertexLoop>> loops;
     while (!loops && result.tolerance > 1e-12 * extent) {
         loops = detail::FaceMerger(points, hull.triangles(), result.tolerance).faces();
-        if (!loops) result.tolerance *= 0.25;
+        if (!loops) result.tolerance *= 0.7;
     }
     if (loops)
         result.faces = std::move(*loops);

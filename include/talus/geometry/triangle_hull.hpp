@@ -13,6 +13,24 @@
 
 namespace talus::detail {
 
+struct Plane {
+    Vector<3> normal = Vector<3>::Zero();
+    double offset = 0.0;
+    double height(const Vector<3>& x) const { return normal.dot(x) - offset; }
+};
+
+/// The plane that ConvexCore gives a loop: along the sum of its triangles, through the mean corner.
+inline Plane plane_of(std::span<const Vector<3>> points, std::span<const std::uint32_t> loop) {
+    Plane plane;
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
+        plane.normal +=
+            (points[loop[k]] - points[loop[0]]).cross(points[loop[k + 1]] - points[loop[0]]);
+    plane.normal.normalize();
+    for (const std::uint32_t v : loop) plane.offset += plane.normal.dot(points[v]);
+    plane.offset /= static_cast<double>(loop.size());
+    return plane;
+}
+
 /// Convex hull in space as triangles, counter-clockwise seen from outside: quickhull
 /// [BarberDobkinHuhdanpaa1996] with exact decisions. The points are put on a grid of 2^-40 of their
 /// extent, where the volume of a tetrahedron is a whole number of 128 bits; so the surface is

@@ -81,6 +81,8 @@ class LineReader {
     }
     /// Words of the line that are not yet used.
     std::size_t words_left() const { return words_.size() - used_; }
+    /// Whether the next word begins with #.
+    bool starts_comment() const { return words_left() > 0 && words_[used_].starts_with('#'); }
 
     /// Demands that nothing but white space follows.
     void expect_end_of_text() {
