@@ -76,6 +76,20 @@ BOOST_AUTO_TEST_CASE(a_ball_on_an_uneven_face_is_pushed_along_its_normal) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_prism_of_rounded_corners_stands_on_all_of_its_face) {
+    Source random(83);
+    for (const double unit : {0.0, 1e-8, 1e-6, 1e-4})
+        for (const int n : {3, 5, 12, 24}) {
+            const auto turn = random.rotation();
+            const talus::ConvexPolytope<3> prism(hull_tester::rounded(
+                hull_tester::turned(hull_tester::prism(n, 0.5, 0.5), turn), unit));
+            std::vector<talus::ContactPoint<3>> contacts;
+            talus::contact_points<3>(prism, {Vector<3>(0, 0, 0.25 - 1e-9), turn.inverse()},
+                                     talus::HalfSpace<3>(Vector<3>::UnitZ()), {}, 0.0, contacts);
+            BOOST_TEST(contacts.size() == static_cast<std::size_t>(n));
+        }
+}
+
 BOOST_AUTO_TEST_CASE(corners_that_may_be_exact_do_not_touch_before_they_meet) {
     // Few digits, flat faces: nothing says that these were rounded.
     for (const double h : {0.5, 0.25, 0.005}) {

@@ -179,6 +179,16 @@ BOOST_AUTO_TEST_CASE(a_vertex_inside_is_named_with_its_depth) {
     BOOST_TEST(refusal<3>(v, {.rounding = 1.0}).find("rounding") == 0u);
 }
 
+BOOST_AUTO_TEST_CASE(extents_whose_squares_are_no_numbers_are_refused) {
+    for (const double scale : {1e-120, 1e120, 1e170}) {
+        auto v = hull_tester::prism(6, 1.0, 1.0);
+        for (auto& x : v) x *= scale;
+        BOOST_TEST(refusal<3>(v).find("extent of the vertices [m] is ") == 0u);
+    }
+    auto v = hull_tester::prism(6, 1e-80, 1e-80);
+    BOOST_TEST(refusal<3>(v) == "");
+}
+
 BOOST_AUTO_TEST_CASE(the_caller_may_tell_the_rounding) {
     Source random(75);
     // Rounded, then scaled: the digits do not show it.

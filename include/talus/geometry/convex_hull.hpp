@@ -72,6 +72,7 @@ double extent_of(std::span<const Vector<Dim>> points, const HullOptions& options
         require_finite(vertex_name(options, i), points[i]);
         extent = std::max(extent, (points[i] - points[0]).norm());
     }
+    if (extent > 0.0) require_in("extent of the vertices [m]", extent, 1e-90, 1e90);
     return extent;
 }
 
@@ -341,7 +342,7 @@ TALUS_FUNCTION ConvexHull convex_hull_of_cloud(std::span<const Vector<3>> points
             result.faces.emplace_back(t.corners.begin(), t.corners.end());
     double unevenness = 0.0;
     for (VertexLoop& loop : result.faces) {
-        std::ranges::rotate(loop, std::ranges::min_element(loop));
+        std::rotate(loop.begin(), std::ranges::min_element(loop), loop.end());
         const detail::Plane plane = detail::plane_of(points, loop);
         for (const std::uint32_t v : loop)
             unevenness = std::max(unevenness, std::abs(plane.height(points[v])));

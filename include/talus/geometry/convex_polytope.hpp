@@ -15,6 +15,13 @@
 
 namespace talus {
 
+/// Sides of a convex polygon given counter-clockwise; a vertex that lies on a side is a corner of
+/// none, with the tolerance of convex_hull in space. Throws input_error naming the vertex that is
+/// not finite, coincides with the next, or where the outline turns right; or when the outline is
+/// clockwise, encloses no area or winds more than once.
+ConvexHull convex_hull(std::span<const Vector<2>> points, const HullOptions& options = {});
+
+#if TALUS_BODIES
 namespace detail {
 
 /// The corners of a loop of points, those left out that lie on a side to a tolerance.
@@ -67,13 +74,6 @@ class SideMerger {
 
 }  // namespace detail
 
-/// Sides of a convex polygon given counter-clockwise; a vertex that lies on a side is a corner of
-/// none, with the tolerance of convex_hull in space. Throws input_error naming the vertex that is
-/// not finite, coincides with the next, or where the outline turns right; or when the outline is
-/// clockwise, encloses no area or winds more than once.
-ConvexHull convex_hull(std::span<const Vector<2>> points, const HullOptions& options = {});
-
-#if TALUS_BODIES
 TALUS_FUNCTION ConvexHull convex_hull(std::span<const Vector<2>> points,
                                       const HullOptions& options) {
     const std::size_t n = points.size();

@@ -5,6 +5,7 @@
 #include <talus/io/mesh/mesh.hpp>
 
 #include <charconv>
+#include <span>
 #include <sstream>
 #include <string_view>
 
