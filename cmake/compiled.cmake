@@ -21,7 +21,8 @@ endfunction()
 # The longest first. All functions are in one source: it also says what the library is compiled for.
 talus_compiled_source(space solver/solver_registry)
 talus_compiled_source(plane solver/solver_registry)
-talus_compiled_source(functions solver/solver_registry problem/matrix_problem)
+talus_compiled_source(functions
+  solver/solver_registry problem/matrix_problem geometry/convex_polytope)
 talus_compiled_source(space stepping/simulation)
 talus_compiled_source(plane stepping/simulation)
 

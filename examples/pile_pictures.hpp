@@ -6,7 +6,6 @@
 #include <talus/io/vtk.hpp>
 #include <talus/io/write_file.hpp>
 #include <talus/measure/grain_load.hpp>
-#include <talus/sample/polyhedron.hpp>
 #include <talus/sample/random_polygon.hpp>
 #include <talus/sample/random_polyhedron.hpp>
 #include <talus/sample/scene.hpp>
@@ -42,13 +41,25 @@ struct Snapshot {
     struct Grain {
         talus::Vector<Dim> centre, velocity;
         double radius, load;
-        std::vector<talus::Vector<Dim>> corners;      ///< world; none for balls
-        std::vector<std::vector<std::size_t>> faces;  ///< of polyhedra
+        std::vector<talus::Vector<Dim>> corners;  ///< world; none for balls
+        std::vector<talus::VertexLoop> faces;     ///< of polyhedra
     };
     std::vector<Grain> grains;
     std::vector<talus::DrawnContact<Dim>> contacts;
     talus::Vector<Dim> box_size;
 };
+
+/// Faces of a grain, by its corners; none for balls.
+template <class AnyShape>
+std::vector<talus::VertexLoop> faces(const AnyShape& shape) {
+    std::vector<talus::VertexLoop> loops;
+    if (const auto* polytope = std::get_if<talus::ConvexPolytope<3>>(&shape.held()))
+        for (std::size_t f = 0; f < polytope->core().face_count(); ++f) {
+            const auto loop = polytope->core().face(f);
+            loops.emplace_back(loop.begin(), loop.end());
+        }
+    return loops;
+}
 
 /// Corners of a grain in the world; none for balls.
 template <int Dim, class AnyShape>
@@ -77,7 +88,7 @@ Snapshot<Dim> snapshot(const Simulation& sim, const talus::Scene<Dim>& scene) {
                             load[i] / data.h,
                             world_corners<Dim>(sim.system().shapes()[i], bodies.pose(i)),
                             {}});
-        if constexpr (Dim == 3) s.grains.back().faces = talus::hull_faces(s.grains.back().corners);
+        if constexpr (Dim == 3) s.grains.back().faces = faces(sim.system().shapes()[i]);
     }
     for (std::size_t c = 0; c < data.contact_count(); ++c) {
         const talus::Vector<Dim>& point = data.contacts.point[c];

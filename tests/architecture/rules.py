@@ -27,8 +27,9 @@ LAYERS = {
     "collision": {"core", "spatial", "geometry"},
     "assembly": {"core", "spatial", "collision", "dynamics", "law", "problem"},
     "stepping": PHYSICS | ALGEBRA | {"assembly"},
-    "sample": {"core", "spatial", "geometry", "dynamics"},
+    "sample": {"core", "spatial", "geometry", "collision/gjk", "dynamics"},
     "measure": PHYSICS | {"law", "problem"},
+    "io/mesh": {"core", "io/line_reader"},
     "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
 }
 LONGEST_HEADER = 400

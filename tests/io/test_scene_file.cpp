@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/dimensions.hpp"
+#include "common/hull_tester.hpp"
 #include "io/temporary_folder.hpp"
 
 using talus::Vector;
@@ -86,9 +87,10 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_written_is_read_back, D, dimensions) {
         BOOST_TEST(!std::isfinite(again.box_size[Dim - 1]));
         for (std::size_t i = 0; i < scene.grains.size(); ++i) {
             const auto &a = scene.grains[i], &b = again.grains[i];
-            // Half a unit in the ninth digit of a length below 1 m.
-            BOOST_TEST((a.position - b.position).template lpNorm<Eigen::Infinity>() < 5e-10);
-            BOOST_REQUIRE(a.vertices.size() == b.vertices.size());
+            // Bit for bit.
+            BOOST_TEST((a.position == b.position));
+            BOOST_TEST(a.radius == b.radius);
+            BOOST_TEST((a.vertices == b.vertices));
         }
         BOOST_TEST(talus::scene_text(again) == talus::scene_text(scene));
     }
@@ -205,6 +207,59 @@ BOOST_AUTO_TEST_CASE(wrong_polyhedra_are_refused) {
     check_refused<3>(before + r + "4 1 1 1 -1 1 1 -1 -1 1 1 -1 1\n", 5, {"flat"});
     check_refused<3>(before + r + "4 1 1 1 -1 1 1 -1 -1 1 1 -1 -1\n", 5, {"centroid"});
     check_refused<3>(before + "3 3 0.9 1.7320508 8" + cube, 5, {"axis 3", "-0.1"});
+}
+
+BOOST_AUTO_TEST_CASE(polyhedra_of_few_digits_are_what_was_meant) {
+    const auto turn = talus::Rotation<3>::exp({0.3, -0.7, 0.2});
+    for (const int digits : {4, 5, 6, 7, 8, 9, 12, 15, 0})
+        for (int n = 3; n <= 16; ++n) {
+            talus::Scene<3> scene;
+            scene.box_size.head<2>() << 9.0, 9.0;
+            scene.density = scene.mean_radius = 1.0;
+            scene.grains.push_back({{4, 4, 4}, 0.0, {}});
+            auto& grain = scene.grains[0];
+            grain.vertices = hull_tester::turned(hull_tester::prism(n, 0.5, 0.4), turn);
+            grain.radius = talus::bounding_radius<3>(grain.vertices);
+            std::istringstream text(talus::scene_text(scene, digits));
+            const auto again = talus::parse_scene<3>(text, "pile.txt");
+            const talus::ConvexPolytope<3> shape(again.grains[0].vertices);
+            BOOST_TEST(shape.core().face_count() == static_cast<std::size_t>(n + 2));
+        }
+}
+
+BOOST_AUTO_TEST_CASE(the_polyhedra_that_were_refused_are_read) {
+    const std::filesystem::path faults = TALUS_SHARED_DATA "/faults";
+    if (!std::filesystem::exists(faults / "hexagonal_prism_9_digits.txt")) {
+        BOOST_TEST_MESSAGE("skipped, data not found");
+        return;
+    }
+    for (const char* name : {"hexagonal_prism_9_digits.txt", "hexagonal_prism_12_digits.txt"}) {
+        const auto scene = talus::read_scene<3>(faults / name);
+        BOOST_TEST_REQUIRE(scene.grains.size() == 1u);
+        const talus::ConvexPolytope<3> shape(scene.grains[0].vertices);
+        BOOST_TEST(shape.core().face_count() == 8u);
+    }
+    const auto scene = talus::read_scene<3>(faults / "cube_with_face_centres.txt");
+    const talus::ConvexPolytope<3> cube(scene.grains[0].vertices);
+    BOOST_TEST(cube.core().face_count() == 6u);
+    BOOST_TEST(cube.core().edges.size() == 12u);
+    BOOST_TEST(talus::read_scene<2>(faults / "bom.txt").grains.size() == 3u);
+}
+
+BOOST_AUTO_TEST_CASE(byte_order_marks_are_passed_over_or_named) {
+    BOOST_TEST(complaint<2>("\xef\xbb\xbf" + discs) == "");
+    check_refused<2>("\xff\xfe" + discs, 1, {"byte order mark", "\\xff\\xfe", "UTF-16"});
+    check_refused<2>("\xfe\xff" + discs, 1, {"byte order mark", "UTF-16"});
+    check_refused<2>(with(discs, "mu", "\xef\xbb\xbfmu"), 4, {"'\\xef\\xbb\\xbfmu'", "'mu'"});
+}
+
+BOOST_AUTO_TEST_CASE(control_characters_are_shown_escaped) {
+    check_refused<2>(with(discs, "0.03 0.01", "0.03 0\x1b[31m"), 6, {"'0\\x1b[31m'"});
+    check_refused<2>(with(discs, "disc", "d\xffsc\xc2\x9b"), 2, {"'d\\xffsc\\xc2\\x9b'"});
+    check_refused<2>(with(discs, "pile", "p\u00eele"), 1, {"'p\u00eele'"});
+    check_refused<2>(with(discs, "mu", std::string(1000, 'm')), 4, {"mmm...'"});
+    for (const char c : complaint<2>(with(discs, "mu", std::string("\0\x07\b", 3))))
+        BOOST_TEST((c >= ' ' && c <= '~'));
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(scenes_that_the_format_cannot_say_are_not_written, D, dimensions) {

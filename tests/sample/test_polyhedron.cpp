@@ -18,13 +18,17 @@ std::vector<Vector<3>> cube() {
     return points;
 }
 
+std::vector<talus::VertexLoop> faces_of(const std::vector<Vector<3>>& points) {
+    return talus::convex_hull_of_cloud(std::span<const Vector<3>>(points)).faces;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(sample_polyhedron)
 
 BOOST_AUTO_TEST_CASE(a_cube_has_six_faces_of_four_corners) {
     const auto points = cube();
-    const auto faces = talus::hull_faces(points);
+    const auto faces = faces_of(points);
     BOOST_TEST(faces.size() == 6u);
     for (const auto& face : faces) BOOST_TEST(face.size() == 4u);
     const auto centre = talus::solid_centre(points, faces);
@@ -34,7 +38,7 @@ BOOST_AUTO_TEST_CASE(a_cube_has_six_faces_of_four_corners) {
 
 BOOST_AUTO_TEST_CASE(faces_turn_left_seen_from_outside) {
     const auto points = cube();
-    for (const auto& f : talus::hull_faces(points))
+    for (const auto& f : faces_of(points))
         for (std::size_t i = 0; i < f.size(); ++i) {
             const Vector<3> a = points[f[i]], b = points[f[(i + 1) % 4]],
                             c = points[f[(i + 2) % 4]];
@@ -45,20 +49,19 @@ BOOST_AUTO_TEST_CASE(faces_turn_left_seen_from_outside) {
 BOOST_AUTO_TEST_CASE(a_point_inside_belongs_to_no_face) {
     auto points = cube();
     points.emplace_back(0.3, 0.4, 0.5);
-    const auto faces = talus::hull_faces(points);
+    const auto faces = faces_of(points);
     BOOST_TEST(faces.size() == 6u);
     for (const auto& face : faces)
         for (const auto corner : face) BOOST_TEST(corner < 8u);
 }
 
 BOOST_AUTO_TEST_CASE(points_of_a_plane_have_no_hull_in_space) {
-    const std::vector<Vector<3>> square{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    BOOST_TEST(talus::hull_faces(square).empty());
+    BOOST_CHECK_THROW(faces_of({{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}), talus::input_error);
 }
 
 BOOST_AUTO_TEST_CASE(a_tetrahedron_has_its_centroid_at_the_mean_of_its_corners) {
     const std::vector<Vector<3>> points{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}};
-    const auto faces = talus::hull_faces(points);
+    const auto faces = faces_of(points);
     BOOST_TEST(faces.size() == 4u);
     const auto centre = talus::solid_centre(points, faces);
     BOOST_TEST(std::abs(centre.volume - 4.0) < rounding * 10);

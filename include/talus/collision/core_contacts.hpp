@@ -22,6 +22,22 @@ bool find_nearest_points(const CorePair<Dim>& p, const Vector<Dim>& start,
     return true;
 }
 
+/// Replaces `axis` by the normal of a face that separates as well to the slack: the direction of
+/// nearest points of uneven faces is that of their unevenness.
+template <int Dim>
+void prefer_face(const CorePair<Dim>& p, double limit, SeparatingAxis<Dim>& axis) {
+    SeparatingAxis<Dim> of_a, of_b;
+    const CorePair<Dim> q = p.exchanged();
+    if (!try_faces(p, limit, of_a) || !try_faces(q, limit, of_b)) return;
+    const bool is_b = improves(of_a, of_b.separation, p.preference()) && q.a.face_count() > 0;
+    if (std::max(of_a.separation, of_b.separation) < axis.separation - p.slack) return;
+    if (is_b)
+        axis = {-(p.rotation * of_b.normal), of_b.separation, p.in_a(of_b.point_b),
+                p.in_a(of_b.point_a)};
+    else
+        axis = of_a;
+}
+
 /// The best axis; false if the cores are farther apart than `limit`. Rounded cores are mostly
 /// apart, sharp ones in contact mostly overlap: each begins with the question likely to be last.
 template <int Dim>
@@ -30,14 +46,17 @@ bool find_axis(const CorePair<Dim>& p, double limit, SeparatingAxis<Dim>& axis) 
     const double reach = p.a.bound + p.b.bound + limit - p.rounding();
     if (!(apart.squaredNorm() <= reach * reach) || reach < 0.0) return false;
     if (p.rounding() > 0.0) {
-        if (find_nearest_points<Dim>(
+        if (!find_nearest_points<Dim>(
                 p, apart.isZero(0.0) ? Vector<Dim>(Vector<Dim>::Unit(0)) : apart, axis))
-            return axis.separation <= limit;
-        return find_separating_axis(p, limit, axis);
+            return find_separating_axis(p, limit, axis);
+    } else {
+        if (!find_separating_axis(p, limit, axis)) return false;
+        if (!(axis.separation > 0.0)) return axis.separation <= limit;
+        find_nearest_points<Dim>(p, Vector<Dim>(axis.normal), axis);
     }
-    if (!find_separating_axis(p, limit, axis)) return false;
-    if (axis.separation > 0.0) find_nearest_points<Dim>(p, Vector<Dim>(axis.normal), axis);
-    return axis.separation <= limit;
+    if (!(axis.separation <= limit)) return false;
+    if (p.slack > 0.0) prefer_face(p, limit, axis);
+    return true;
 }
 
 /// Contacts on the face of A that is most nearly across `axis`, if one is, and if what touches it
@@ -56,8 +75,7 @@ bool add_face_contacts(const CorePair<Dim>& p, const Vector<Dim>& axis, double s
     }
     if (face == p.a.face_count()) return false;
     const double least_gap = FaceContacts<Dim>(p, face, limit, sink).add();
-    if (std::abs(least_gap * cosine - separation) <= NarrowPhaseTolerance::preference * p.size)
-        return true;
+    if (std::abs(least_gap * cosine - separation) <= p.preference()) return true;
     sink.out.resize(sink.first, ContactPoint<Dim>{});
     return false;
 }
@@ -65,13 +83,15 @@ bool add_face_contacts(const CorePair<Dim>& p, const Vector<Dim>& axis, double s
 }  // namespace detail
 
 /// Contacts of two rounded cores: the best axis; then, in this order of preference, the contacts on
-/// a face of A across it, on a face of B, or of edges and vertices.
+/// a face of A across it, on a face of B, or of edges and vertices. Cores of rounded coordinates
+/// touch already when they are nearer than their slack, so that faces put on each other do so all
+/// over.
 template <int Dim>
 void append_core_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a, const CoreView<Dim>& b,
                           const Pose<Dim>& pose_b, double margin,
                           std::vector<ContactPoint<Dim>>& out) {
     const CorePair<Dim> p(a, pose_a, b, pose_b);
-    const double limit = margin + p.rounding();
+    const double limit = margin + p.rounding() + p.slack;
     SeparatingAxis<Dim> axis;
     if (!detail::find_axis(p, limit, axis)) return;
     const ContactSink<Dim> sink{out, out.size(), pose_a};

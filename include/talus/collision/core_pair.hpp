@@ -39,6 +39,7 @@ struct CorePair {
     Matrix<Dim> rotation;  ///< axes of B to axes of A
     Vector<Dim> shift;     ///< origin of B in A [m]
     double size;           ///< scale of the tolerances: the smaller bound [m]
+    double slack;          ///< nearer than this, faces of rounded corners touch [m]
 
     CorePair(const CoreView<Dim>& core_a, const Pose<Dim>& pose_a, const CoreView<Dim>& core_b,
              const Pose<Dim>& pose_b)
@@ -47,7 +48,8 @@ struct CorePair {
           rotation((pose_a.rotation.inverse() * pose_b.rotation).matrix()),
           shift(pose_a.rotation.transpose_times(pose_b.position - pose_a.position)),
           // The millionth of the larger keeps the tolerances above the rounding of its coordinates.
-          size(std::min(a.bound, b.bound) + 1e-6 * std::max(a.bound, b.bound)) {}
+          size(std::min(a.bound, b.bound) + 1e-6 * std::max(a.bound, b.bound)),
+          slack(a.slack + b.slack) {}
 
     /// The same two, seen from B, which then is called A.
     CorePair exchanged() const {
@@ -58,6 +60,8 @@ struct CorePair {
         return p;
     }
     double rounding() const { return a.radius + b.radius; }  ///< [m]
+    /// How much better an axis must be to replace one found before it [m].
+    double preference() const { return NarrowPhaseTolerance::preference * size + slack; }
     Vector<Dim> in_a(const Vector<Dim>& point_b) const { return rotation * point_b + shift; }
     Vector<Dim> in_b(const Vector<Dim>& point_a) const {
         return rotation.transpose() * (point_a - shift);

@@ -88,7 +88,8 @@ class FaceContacts {
     bool on_looking_side(const Vector<Dim>& vertex_b) const {
         if (p_.b.face_count() == 0) return true;
         for (std::size_t f = 0; f < p_.b.face_count(); ++f)
-            if (looks(f) && p_.b.offsets[f] - p_.b.normals[f].dot(vertex_b) <= tolerance_)
+            if (looks(f) &&
+                p_.b.offsets[f] - p_.b.normals[f].dot(vertex_b) <= tolerance_ + p_.b.slack)
                 return true;
         return false;
     }

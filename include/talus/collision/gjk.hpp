@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace talus {
@@ -88,13 +89,17 @@ GjkSimplex<Dim> nearest_part_of_triangle(GjkSimplex<Dim> s) {
 
 /// Of the faces that have the origin on their outer side the nearest; all points if there is none.
 inline GjkSimplex<3> nearest_part_of_tetrahedron(const GjkSimplex<3>& s) {
+    constexpr double flat = 1e-14;
     GjkSimplex<3> best = s;
     bool outside = false;
     constexpr std::array<std::array<std::size_t, 4>, 4> faces{
         {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}}};
     for (const auto& [i, j, k, opposite] : faces) {
         const Vector<3> p = s.w(i), n = (s.w(j) - p).cross(s.w(k) - p);
-        if (-n.dot(p) * n.dot(s.w(opposite) - p) > 0.0) continue;
+        const double height = n.dot(s.w(opposite) - p);
+        // A flat tetrahedron holds nothing: the sign of its height is rounding.
+        const double thick = flat * n.norm() * (s.w(opposite) - p).norm();
+        if (std::abs(height) > thick && -n.dot(p) * height > 0.0) continue;
         const auto candidate = nearest_part_of_triangle(s.part({i, j, k}));
         if (!outside || candidate.nearest().squaredNorm() < best.nearest().squaredNorm())
             best = candidate;

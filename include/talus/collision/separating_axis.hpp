@@ -20,10 +20,10 @@ struct SeparatingAxis {
 
 namespace detail {
 
-/// Keeps `axis` unless the new separation is better by the tolerance of preference.
+/// Keeps `axis` unless the new separation is better by the tolerance of preference [m].
 template <int Dim>
-bool improves(const SeparatingAxis<Dim>& axis, double separation, double size) {
-    return separation > axis.separation + NarrowPhaseTolerance::preference * size ||
+bool improves(const SeparatingAxis<Dim>& axis, double separation, double preference) {
+    return separation > axis.separation + preference ||
            axis.separation == -std::numeric_limits<double>::infinity();
 }
 
@@ -37,7 +37,7 @@ bool try_faces(const CorePair<Dim>& p, double limit, SeparatingAxis<Dim>& axis) 
         const Vector<Dim>& lowest = p.b.vertices[support_index(p.b, down)];
         const double s = m.dot(p.shift) - down.dot(lowest) - p.a.offsets[f];
         if (s > limit) return false;
-        if (improves(axis, s, p.size)) {
+        if (improves(axis, s, p.preference())) {
             const Vector<Dim> b = p.in_a(lowest);
             axis = {-m, s, b - s * m, b};
         }
@@ -101,14 +101,22 @@ inline bool can_reach(const CoreView<3>& core, const CoreEdge& e, const Vector<3
     return most > 0.0 && 2.0 * most >= least * (l + r).norm();
 }
 
-inline bool try_edge_pair(const PlacedEdge& a, const PlacedEdge& b, const Vector<3>& apart,
-                          double limit, double size, SeparatingAxis<3>& axis) {
+/// Whether nothing of A is below, nothing of B above the planes through the two edges across `n`,
+/// to the tolerance of preference. Edges of flat faces answer it by their arcs alone.
+inline bool supports(const CorePair<3>& p, const Vector<3>& n, double separation) {
+    return p.slack == 0.0 || n.dot(p.support(-n).difference()) >= separation - p.preference();
+}
+
+inline bool try_edge_pair(const CorePair<3>& p, const PlacedEdge& a, const PlacedEdge& b,
+                          const Vector<3>& apart, double limit, SeparatingAxis<3>& axis) {
     if (!arcs_cross(a, b)) return true;
     const Vector<3> n = edge_normal(a, b, apart);
     if (n.isZero(0.0)) return true;
     const double s = n.dot(a.tail - b.tail);
-    if (s > limit) return false;
-    if (improves(axis, s, size)) {
+    const bool better = improves(axis, s, p.preference());
+    if ((!(s > limit) && !better) || !supports(p, n, s)) return true;
+    if (s > limit + p.slack) return false;
+    if (better) {
         axis.normal = n;
         axis.separation = s;
         set_nearest_points_of_lines(a, b, axis);
@@ -135,7 +143,7 @@ inline bool try_edges(const CorePair<3>& p, double limit, SeparatingAxis<3>& axi
             b = {p.in_a(b.tail), p.rotation * b.direction, p.rotation * b.left,
                  p.rotation * b.right, b.bare};
             for (std::size_t i = 0; i < count; ++i)
-                if (!try_edge_pair(edges[i], b, apart, limit, p.size, axis)) return false;
+                if (!try_edge_pair(p, edges[i], b, apart, limit, axis)) return false;
         }
     }
     return true;
@@ -166,7 +174,7 @@ bool find_separating_axis(const CorePair<Dim>& p, double limit, SeparatingAxis<D
     SeparatingAxis<Dim> of_b;
     const CorePair<Dim> q = p.exchanged();
     if (!detail::try_faces(q, limit, of_b)) return false;
-    if (q.a.face_count() > 0 && detail::improves(axis, of_b.separation, p.size))
+    if (q.a.face_count() > 0 && detail::improves(axis, of_b.separation, p.preference()))
         axis = {-(p.rotation * of_b.normal), of_b.separation, p.in_a(of_b.point_b),
                 p.in_a(of_b.point_a)};
     if constexpr (Dim == 3)

@@ -45,6 +45,7 @@ struct CoreView {
     Vector<Dim> centre;  ///< of a ball that holds core and rounding [m]
     double bound;        ///< radius of that ball [m]
     double inner = 0.0;  ///< radius of a ball about `centre` inside the core, 0 if none is [m]
+    double slack = 0.0;  ///< how far faces may be from what was meant: corners were rounded [m]
 
     std::size_t face_count() const { return normals.size(); }
     std::span<const std::uint32_t> face(std::size_t i) const {
@@ -70,10 +71,11 @@ requires SpaceDimension<Dim>
 class ConvexCore {
   public:
     /// The core with the given faces, each a loop of vertices counter-clockwise seen from outside;
-    /// in space a pair of vertices without faces is a segment.
+    /// in space a pair of vertices without faces is a segment. `slack` [m] as in CoreView.
     ConvexCore(std::vector<Vector<Dim>> vertices,
-               const std::vector<std::vector<std::uint32_t>>& faces, double radius)
-        : vertices_(std::move(vertices)), radius_(radius) {
+               const std::vector<std::vector<std::uint32_t>>& faces, double radius,
+               double slack = 0.0)
+        : vertices_(std::move(vertices)), radius_(radius), slack_(slack) {
         if (vertices_.size() >= max_feature_count || 3 * faces.size() >= max_feature_count)
             detail::reject("vertex count", static_cast<double>(vertices_.size()),
                            "small enough for fewer than 2^18 vertices, edges and faces");
@@ -89,7 +91,7 @@ class ConvexCore {
 
     CoreView<Dim> view() const {
         return {vertices_, normals_, offsets_, loop_begin_, loops_, loop_edges_,
-                edges_,    radius_,  centre_,  bound_,      inner_};
+                edges_,    radius_,  centre_,  bound_,      inner_, slack_};
     }
     /// The same core seen from the frame in which its present frame has this pose.
     ConvexCore placed(const Pose<Dim>& pose) const {
@@ -166,7 +168,7 @@ class ConvexCore {
     std::vector<double> offsets_;
     std::vector<std::uint32_t> loop_begin_, loops_, loop_edges_;
     std::vector<CoreEdge> edges_;
-    double radius_;
+    double radius_, slack_;
     Vector<Dim> centre_;
     double bound_, inner_;
 };

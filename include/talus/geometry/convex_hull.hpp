@@ -1,182 +1,389 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/core/cross.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/instantiate.hpp>
+#include <talus/core/types.hpp>
+
+#if TALUS_BODIES
+#include <talus/geometry/coordinate_rounding.hpp>
+#include <talus/geometry/triangle_hull.hpp>
+#endif
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace talus {
 
-/// A polygon as the loop of its vertices.
+/// A face as the loop of its corners, counter-clockwise seen from outside.
 using VertexLoop = std::vector<std::uint32_t>;
+
+/// How corners are read.
+struct HullOptions {
+    /// Each coordinate may be this far from what was meant [m], in [0, 1e-2] of the extent; without
+    /// it what the digits of the coordinates say (coordinate_rounding), up to 1.25e-4 of the
+    /// extent: numbers of three digits or less are more often exact than rounded.
+    std::optional<double> rounding = std::nullopt;
+    std::size_t first_index = 0;  ///< what complaints call the first vertex
+};
+
+/// Faces of a polygon (its sides) or polyhedron.
+struct ConvexHull {
+    std::vector<VertexLoop> faces;
+    /// No vertex is farther above the plane of a face, no corner farther from it [m].
+    double tolerance = 0.0;
+    /// How far the surface may be from what was meant [m]: the tolerance, if it is that of rounded
+    /// coordinates; where few digits may be exact, what the unevenness of the faces shows.
+    double slack = 0.0;
+};
+
+/// Polyhedron with all these points as vertices. Triangles whose corners are in one plane to four
+/// times the rounding of the coordinates (see HullOptions), at least to 1e-9 of their extent, are
+/// one face. Each face begins at its smallest index; faces are in the order of their loops. A
+/// vertex that lies in a face or on an edge to that tolerance is a corner of none. Throws
+/// input_error naming the vertex that is not finite, coincides with another or lies deeper inside;
+/// or when all lie in a plane. As costly as detail::TriangleHull and faces * vertices.
+ConvexHull convex_hull(std::span<const Vector<3>> points, const HullOptions& options = {});
+
+/// The same of points of which any may lie inside or coincide.
+ConvexHull convex_hull_of_cloud(std::span<const Vector<3>> points, const HullOptions& options = {});
 
 namespace detail {
 
-[[noreturn]] inline void reject_vertex(std::size_t index, const std::string& what) {
-    throw input_error("vertex " + std::to_string(index) + " " + what);
+inline std::string vertex_name(const HullOptions& options, std::size_t index) {
+    return "vertex " + std::to_string(options.first_index + index);
 }
 
-/// Incremental convex hull in space. Triangles are counter-clockwise seen from outside.
-class TriangleHull {
-  public:
-    using Triangle = std::array<std::uint32_t, 3>;
+/// Least height at which two vertices, or a vertex and a plane, are told apart, by the extent.
+inline constexpr double coincident = 1e-9;
 
-    /// `rounding` [m]: a point no farther than this above a plane does not see it.
-    TriangleHull(std::span<const Vector<3>> points, double rounding)
-        : points_(points), rounding_(rounding) {
-        const std::array<std::uint32_t, 4> first = widest_simplex();
-        const auto [a, b, c, d] = first;
-        triangles_ = {{a, b, c}, {a, c, d}, {a, d, b}, {b, d, c}};
-        for (std::uint32_t p = 0; p < points.size(); ++p)
-            if (std::ranges::find(first, p) == first.end()) add(p);
+/// Checks the coordinates, returns their extent [m]: the largest distance from the first.
+template <int Dim>
+double extent_of(std::span<const Vector<Dim>> points, const HullOptions& options) {
+    double extent = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        require_finite(vertex_name(options, i), points[i]);
+        extent = std::max(extent, (points[i] - points[0]).norm());
     }
-
-    const std::vector<Triangle>& triangles() const { return triangles_; }
-
-    /// Height of a point above the plane of a triangle [m].
-    double height(const Triangle& t, const Vector<3>& x) const {
-        return normal(t).normalized().dot(x - points_[t[0]]);
-    }
-    /// Twice the area, along the outward normal [m^2].
-    Vector<3> normal(const Triangle& t) const {
-        return (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]);
-    }
-
-  private:
-    template <class Measure>
-    std::uint32_t farthest(Measure measure) const {
-        std::uint32_t best = 0;
-        for (std::uint32_t p = 1; p < points_.size(); ++p)
-            if (measure(points_[p]) > measure(points_[best])) best = p;
-        return best;
-    }
-    /// Four points far apart, positively oriented for the constructor's triangles.
-    std::array<std::uint32_t, 4> widest_simplex() const {
-        const std::uint32_t a = farthest([](const auto& x) { return -x[0]; });
-        const Vector<3> o = points_[a];
-        const std::uint32_t b = farthest([&](const auto& x) { return (x - o).norm(); });
-        const Vector<3> u = (points_[b] - o).normalized();
-        const std::uint32_t c = farthest([&](const auto& x) { return u.cross(x - o).norm(); });
-        const Vector<3> n = u.cross(points_[c] - o);
-        if (!(n.norm() > rounding_))
-            throw input_error("the vertices lie on a line, but must span a volume");
-        const Vector<3> unit = n.normalized();
-        const std::uint32_t d = farthest([&](const auto& x) { return std::abs(unit.dot(x - o)); });
-        const double height = unit.dot(points_[d] - o);
-        if (!(std::abs(height) > 1e3 * rounding_))
-            throw input_error("the vertices lie in a plane, but must span a volume");
-        return height < 0.0 ? std::array{a, b, c, d} : std::array{a, c, b, d};
-    }
-    /// Replaces the triangles that point p sees by the cone from p over their outline.
-    void add(std::uint32_t p) {
-        std::vector<Triangle> kept, seen;
-        for (const Triangle& t : triangles_)
-            (height(t, points_[p]) > rounding_ ? seen : kept).push_back(t);
-        if (seen.empty()) return;
-        std::map<std::pair<std::uint32_t, std::uint32_t>, bool> sides;
-        for (const Triangle& t : seen)
-            for (std::size_t k = 0; k < 3; ++k) sides[{t[k], t[(k + 1) % 3]}] = true;
-        for (const auto& [side, unused] : sides)
-            if (!sides.contains({side.second, side.first}))
-                kept.push_back({side.first, side.second, p});
-        triangles_ = std::move(kept);
-    }
-
-    std::span<const Vector<3>> points_;
-    double rounding_;
-    std::vector<Triangle> triangles_;
-};
-
-/// Groups of triangles that lie in one plane: the group of each triangle, numbered in order.
-inline std::vector<std::size_t> coplanar_groups(const TriangleHull& hull,
-                                                std::span<const Vector<3>> points, double flat) {
-    const auto& triangles = hull.triangles();
-    std::vector<std::size_t> group(triangles.size());
-    std::iota(group.begin(), group.end(), std::size_t{0});
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> owner;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) owner[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
-    const auto lies_in = [&](std::size_t s, std::size_t t) {
-        return std::ranges::all_of(triangles[s], [&](std::uint32_t v) {
-            return std::abs(hull.height(triangles[t], points[v])) <= flat;
-        });
-    };
-    for (const auto& [side, t] : owner) {
-        const auto other = owner.find({side.second, side.first});
-        if (other == owner.end()) throw input_error("the vertices span no clear convex hull");
-        const std::size_t s = other->second;
-        // The larger triangle has the more accurate plane.
-        const bool larger = hull.normal(triangles[t]).norm() >= hull.normal(triangles[s]).norm();
-        if (group[s] != group[t] && (larger ? lies_in(s, t) : lies_in(t, s)))
-            std::ranges::replace(group, std::max(group[s], group[t]), std::min(group[s], group[t]));
-    }
-    return group;
-}
-
-/// The outline of each group of triangles.
-inline std::vector<VertexLoop> outlines(std::span<const TriangleHull::Triangle> triangles,
-                                        std::span<const std::size_t> group) {
-    std::map<std::size_t, std::map<std::uint32_t, std::uint32_t>> next;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> owner;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k)
-            owner[{triangles[t][k], triangles[t][(k + 1) % 3]}] = group[t];
-    for (const auto& [side, g] : owner)
-        if (owner.at({side.second, side.first}) != g) next[g][side.first] = side.second;
-    std::vector<VertexLoop> loops;
-    for (const auto& [g, step] : next) {
-        VertexLoop loop;
-        std::uint32_t v = step.begin()->first;
-        do {
-            loop.push_back(v);
-            v = step.at(v);
-        } while (v != loop.front() && loop.size() <= step.size());
-        loops.push_back(std::move(loop));
-    }
-    return loops;
+    if (extent > 0.0) require_in("extent of the vertices [m]", extent, 1e-90, 1e90);
+    return extent;
 }
 
 }  // namespace detail
 
-/// Faces of the convex hull of `points`, every one of which must be a corner of it; triangles in
-/// one plane are merged into polygons. Each face begins at its smallest index. Incremental
-/// construction; two tolerances, relative to the extent of the points: a point sees a plane it is
-/// 1e-12 above, and triangles whose corners are within 1e-9 of one plane are one face, so that
-/// coordinates written with ten digits give the faces that were meant. Throws input_error naming
-/// the vertex that is not finite, coincides with another or is no corner; or when all lie in a
-/// plane. O(vertices * faces).
-inline std::vector<VertexLoop> convex_hull_faces(std::span<const Vector<3>> points) {
-    if (points.size() < 4)
-        detail::reject("vertex count", static_cast<double>(points.size()), "at least 4");
-    double extent = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        require_finite("vertex " + std::to_string(i), points[i]);
-        extent = std::max(extent, (points[i] - points[0]).norm());
+#if TALUS_BODIES
+namespace detail {
+
+struct HullTolerance {
+    double value;     ///< of ConvexHull [m]
+    double rounded;   ///< the part of it that the rounding asks for [m]
+    bool few_digits;  ///< the coordinates may be exact
+
+    /// ConvexHull::slack, when `used` was the tolerance in the end.
+    double slack(double unevenness, double used, double extent) const {
+        double slack = std::min(used, rounded);
+        if (few_digits) slack = std::min(slack, 16.0 * unevenness);
+        return slack > 0.1 * coincident * extent ? slack : 0.0;
     }
-    const double flat = 1e-9 * extent;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if ((points[i] - points[j]).norm() <= flat)
-                detail::reject_vertex(i, "coincides with vertex " + std::to_string(j) +
-                                             ", but the vertices must be distinct");
-    const detail::TriangleHull hull(points, 1e-12 * extent);
-    auto loops = detail::outlines(hull.triangles(), detail::coplanar_groups(hull, points, flat));
-    std::vector<int> faces_at(points.size(), 0);
-    for (const VertexLoop& loop : loops)
-        for (const std::uint32_t v : loop) ++faces_at[v];
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (faces_at[i] < 3)
-            detail::reject_vertex(i, "is no corner of the convex hull, but all vertices must be");
-    return loops;
+};
+template <int Dim>
+HullTolerance hull_tolerance(std::span<const Vector<Dim>> points, double extent,
+                             const HullOptions& options) {
+    constexpr double most = 1.25e-4;
+    const double rounding = options.rounding ? require_in("rounding of the vertices [m]",
+                                                          *options.rounding, 0.0, 1e-2 * extent)
+                                             : coordinate_rounding<Dim>(points, most * extent);
+    const bool few_digits = !options.rounding && rounding > most * extent;
+    const double rounded = 4.0 * (few_digits ? most * extent : rounding);
+    return {std::max(coincident * extent, rounded), rounded, few_digits};
 }
+
+/// Joins the triangles of a hull that lie in one plane to a tolerance.
+class FaceMerger {
+  public:
+    FaceMerger(std::span<const Vector<3>> points,
+               const std::vector<TriangleHull::Triangle>& triangles, double tolerance)
+        : points_(points), triangles_(triangles), tolerance_(tolerance) {
+        for (const auto& t : triangles_) {
+            const Vector<3>& a = points_[t.corners[0]];
+            areas_.push_back((points_[t.corners[1]] - a).cross(points_[t.corners[2]] - a));
+            for (const std::uint32_t v : t.corners) surface_.push_back(v);
+        }
+        std::ranges::sort(surface_);
+        surface_.erase(std::unique(surface_.begin(), surface_.end()), surface_.end());
+    }
+
+    /// The loops of the faces; nothing if they make no polyhedron with every vertex below every
+    /// face to the tolerance, which then is too large for this body.
+    std::optional<std::vector<VertexLoop>> faces() {
+        grow_all();
+        for (std::size_t trial = 0; trial <= triangles_.size(); ++trial) {
+            auto loops = outlines();
+            if (!loops) return std::nullopt;
+            if (dissolve_degenerate(*loops)) continue;
+            if (!fits(*loops)) return std::nullopt;
+            return loops;
+        }
+        return std::nullopt;
+    }
+
+  private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+    /// A triangle joins a face if its normal has at least this cosine with the face's.
+    static constexpr double same_side = 0.1;
+
+    /// Largest triangles first, as they have the most accurate planes.
+    void grow_all() {
+        group_.assign(triangles_.size(), none);
+        std::vector<std::uint32_t> order(triangles_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::ranges::stable_sort(order, [&](std::uint32_t s, std::uint32_t t) {
+            return areas_[s].squaredNorm() > areas_[t].squaredNorm();
+        });
+        visited_.assign(triangles_.size(), none);
+        group_count_ = 0;
+        for (const std::uint32_t seed : order)
+            if (group_[seed] == none) {
+                for (const std::uint32_t t : grown(seed)) group_[t] = group_count_;
+                ++group_count_;
+            }
+    }
+    /// The triangles around `seed` in one plane. The plane is fitted anew to what it reaches, first
+    /// with a larger tolerance since that of a small triangle is inaccurate far from it.
+    std::vector<std::uint32_t> grown(std::uint32_t seed) {
+        std::vector<std::uint32_t> members{seed};
+        for (int round = 0; round < 12; ++round) {
+            auto next = reached(seed, fitted(members), (round < 6 ? 1.5 : 1.0) * tolerance_);
+            if (next.size() == members.size() && round >= 6) break;
+            members = std::move(next);
+            if (members.size() == 1) break;
+        }
+        return members;
+    }
+    Plane fitted(const std::vector<std::uint32_t>& members) const {
+        Plane plane;
+        for (const std::uint32_t t : members) plane.normal += areas_[t];
+        plane.normal.normalize();
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const std::uint32_t t : members)
+            for (const std::uint32_t v : triangles_[t].corners) {
+                low = std::min(low, plane.normal.dot(points_[v]));
+                high = std::max(high, plane.normal.dot(points_[v]));
+            }
+        plane.offset = 0.5 * (low + high);
+        return plane;
+    }
+    std::vector<std::uint32_t> reached(std::uint32_t seed, const Plane& plane, double tolerance) {
+        std::vector<std::uint32_t> members{seed};
+        ++visit_;
+        visited_[seed] = visit_;
+        for (std::size_t i = 0; i < members.size(); ++i)
+            for (const std::uint32_t t : triangles_[members[i]].neighbours) {
+                if (visited_[t] == visit_ || group_[t] != none) continue;
+                visited_[t] = visit_;
+                const bool lies_in =
+                    (areas_[t].dot(plane.normal) > same_side * areas_[t].norm() || is_sliver(t)) &&
+                    std::ranges::all_of(triangles_[t].corners, [&](std::uint32_t v) {
+                        return std::abs(plane.height(points_[v])) <= tolerance;
+                    });
+                if (lies_in) members.push_back(t);
+            }
+        return members;
+    }
+
+    /// Whether the triangle is so narrow that its normal is that of the rounding.
+    bool is_sliver(std::uint32_t t) const {
+        double longest = 0.0;
+        for (std::size_t k = 0; k < 3; ++k)
+            longest = std::max(longest, (points_[triangles_[t].corners[k]] -
+                                         points_[triangles_[t].corners[(k + 1) % 3]])
+                                            .norm());
+        return areas_[t].norm() <= tolerance_ * longest;
+    }
+
+    /// The outline of each group, without the vertices where fewer than three groups meet; nothing
+    /// if one is not a simple loop.
+    std::optional<std::vector<VertexLoop>> outlines() const {
+        struct Side {
+            std::uint32_t group, tail, head;
+            auto operator<=>(const Side&) const = default;
+        };
+        std::vector<Side> sides;
+        std::vector<int> meeting(points_.size(), 0);
+        for (std::size_t t = 0; t < triangles_.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (group_[triangles_[t].neighbours[k]] != group_[t]) {
+                    sides.push_back(
+                        {group_[t], triangles_[t].corners[k], triangles_[t].corners[(k + 1) % 3]});
+                    ++meeting[triangles_[t].corners[k]];
+                }
+        std::ranges::sort(sides);
+        std::vector<VertexLoop> loops(group_count_);
+        for (auto from = sides.begin(); from != sides.end();) {
+            const auto to = std::find_if(from, sides.end(),
+                                         [&](const Side& s) { return s.group != from->group; });
+            std::size_t walked = 0;
+            auto at = from;
+            do {
+                if (meeting[at->tail] >= 3) loops[from->group].push_back(at->tail);
+                const auto next = std::lower_bound(from, to, Side{from->group, at->head, 0});
+                if (next == to || next->tail != at->head) return std::nullopt;
+                at = next;
+            } while (at != from && ++walked < sides.size());
+            if (walked + 1 != static_cast<std::size_t>(to - from)) return std::nullopt;
+            from = to;
+        }
+        return loops;
+    }
+    /// Gives the groups with fewer than three corners, whose vertices are all near one edge, to the
+    /// groups beyond their longest sides. Returns whether there were any.
+    bool dissolve_degenerate(const std::vector<VertexLoop>& loops) {
+        std::vector<std::uint32_t> into(group_count_, none);
+        std::vector<double> longest(group_count_, -1.0);
+        for (std::size_t t = 0; t < triangles_.size(); ++t)
+            for (std::size_t k = 0; k < 3 && loops[group_[t]].size() < 3; ++k) {
+                const auto& c = triangles_[t].corners;
+                const std::uint32_t g = group_[t], beyond = group_[triangles_[t].neighbours[k]];
+                const double length = (points_[c[(k + 1) % 3]] - points_[c[k]]).norm();
+                if (beyond != g && length > longest[g]) into[g] = beyond, longest[g] = length;
+            }
+        // Of two that would change places the second waits for the next round.
+        std::vector<bool> taken(group_count_, false);
+        std::vector<std::uint32_t> name(group_count_, none);
+        for (std::uint32_t g = 0; g < group_count_; ++g)
+            if (into[g] != none && !taken[g] && name[into[g]] == none) {
+                name[g] = into[g];
+                taken[into[g]] = true;
+            }
+        std::vector<std::uint32_t> number(group_count_, none);
+        std::uint32_t count = 0;
+        for (std::uint32_t g = 0; g < group_count_; ++g)
+            if (name[g] == none) number[g] = count++;
+        if (count == group_count_) return false;
+        for (std::uint32_t& g : group_) g = number[name[g] == none ? g : name[g]];
+        group_count_ = count;
+        return true;
+    }
+
+    bool fits(const std::vector<VertexLoop>& loops) const {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;
+        std::vector<bool> corner(points_.size(), false);
+        for (const VertexLoop& loop : loops)
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                sides.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
+                corner[loop[k]] = true;
+            }
+        const auto corners = static_cast<std::size_t>(std::ranges::count(corner, true));
+        std::ranges::sort(sides);
+        if (loops.size() < 4 || 2 * (corners + loops.size() - 2) != sides.size()) return false;
+        for (std::size_t k = 0; k < sides.size(); ++k)
+            if ((k > 0 && sides[k] == sides[k - 1]) ||
+                !std::ranges::binary_search(sides, std::pair(sides[k].second, sides[k].first)))
+                return false;
+        std::vector<std::size_t> triangle_count(loops.size(), 0);
+        for (const std::uint32_t g : group_) ++triangle_count[g];
+        return std::ranges::all_of(loops, [&](const VertexLoop& loop) {
+            // A triangle of the hull has nothing above it.
+            if (triangle_count[static_cast<std::size_t>(&loop - loops.data())] == 1) return true;
+            const Plane plane = plane_of(points_, loop);
+            return std::ranges::all_of(
+                       surface_, [&](auto v) { return plane.height(points_[v]) <= tolerance_; }) &&
+                   std::ranges::all_of(loop, [&](std::uint32_t v) {
+                       return plane.height(points_[v]) >= -tolerance_;
+                   });
+        });
+    }
+
+    std::span<const Vector<3>> points_;
+    const std::vector<TriangleHull::Triangle>& triangles_;
+    double tolerance_;
+    std::vector<Vector<3>> areas_;        ///< twice the area of each triangle, outwards [m^2]
+    std::vector<std::uint32_t> surface_;  ///< the corners of triangles
+    std::vector<std::uint32_t> group_, visited_;
+    std::uint32_t group_count_ = 0, visit_ = 0;
+};
+
+/// Height of a point above the highest of the planes.
+inline double height_above(std::span<const Plane> planes, const Vector<3>& x) {
+    double height = -std::numeric_limits<double>::infinity();
+    for (const Plane& p : planes) height = std::max(height, p.height(x));
+    return height;
+}
+
+}  // namespace detail
+
+TALUS_FUNCTION ConvexHull convex_hull_of_cloud(std::span<const Vector<3>> points,
+                                               const HullOptions& options) {
+    if (points.size() < 4 || points.size() > 0xffffffffu)
+        detail::reject("vertex count", static_cast<double>(points.size()), "at least 4");
+    const double extent = detail::extent_of(points, options);
+    const detail::TriangleHull hull(points, detail::coincident * extent);
+    ConvexHull result;
+    // A body no thicker than the rounding of its corners tells it was not rounded so much.
+    auto tolerance = detail::hull_tolerance(points, extent, options);
+    result.tolerance = std::min(tolerance.value, hull.height() / 16.0);
+    tolerance.few_digits |= result.tolerance < tolerance.value;
+    std::optional<std::vector<VertexLoop>> loops;
+    while (!loops && result.tolerance > 1e-12 * extent) {
+        loops = detail::FaceMerger(points, hull.triangles(), result.tolerance).faces();
+        if (!loops) result.tolerance *= 0.7;
+    }
+    if (loops)
+        result.faces = std::move(*loops);
+    else
+        for (const auto& t : hull.triangles())
+            result.faces.emplace_back(t.corners.begin(), t.corners.end());
+    double unevenness = 0.0;
+    for (VertexLoop& loop : result.faces) {
+        std::rotate(loop.begin(), std::ranges::min_element(loop), loop.end());
+        const detail::Plane plane = detail::plane_of(points, loop);
+        for (const std::uint32_t v : loop)
+            unevenness = std::max(unevenness, std::abs(plane.height(points[v])));
+    }
+    std::ranges::sort(result.faces);
+    result.slack = tolerance.slack(unevenness, result.tolerance, extent);
+    return result;
+}
+
+TALUS_FUNCTION ConvexHull convex_hull(std::span<const Vector<3>> points,
+                                      const HullOptions& options) {
+    const double flat = detail::coincident * detail::extent_of(points, options);
+    // Along one axis, coincident points are neighbours.
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(points[i][0], i); });
+    for (std::size_t a = 0; a < order.size(); ++a)
+        for (std::size_t b = a + 1; b < order.size(); ++b) {
+            const auto [i, j] = std::minmax(order[a], order[b]);
+            if (points[order[b]][0] - points[order[a]][0] > flat) break;
+            if ((points[i] - points[j]).norm() <= flat)
+                throw input_error(detail::vertex_name(options, j) + " coincides with " +
+                                  detail::vertex_name(options, i) +
+                                  ", but the vertices must be distinct");
+        }
+    ConvexHull hull = convex_hull_of_cloud(points, options);
+    std::vector<bool> corner(points.size(), false);
+    std::vector<detail::Plane> planes;
+    for (const VertexLoop& loop : hull.faces) {
+        planes.push_back(detail::plane_of(points, loop));
+        for (const std::uint32_t v : loop) corner[v] = true;
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (const double depth = corner[i] ? 0.0 : -detail::height_above(planes, points[i]);
+            depth > 2.0 * hull.tolerance)
+            throw input_error(detail::vertex_name(options, i) +
+                              " is no corner of the convex hull but " + detail::text_of(depth) +
+                              " m inside it, and must be at most " +
+                              detail::text_of(2.0 * hull.tolerance) + " m inside");
+    return hull;
+}
+#endif
 
 }  // namespace talus

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/geometry/convex_polytope.hpp>
+#include <talus/geometry/coordinate_rounding.hpp>
 #include <talus/sample/polygon.hpp>
 #include <talus/sample/polyhedron.hpp>
 #include <talus/sample/scene.hpp>
@@ -12,52 +14,49 @@
 
 namespace talus::detail {
 
-/// Files carry nine digits; what is right to this part of a grain's radius is right.
+/// Files carry nine digits or more; what is right to this part of a grain's radius is right.
 inline constexpr double file_tolerance = 1e-6;
 
 inline std::string vertex_name(std::size_t i) { return "vertex " + std::to_string(i + 1); }
 
+/// How far what follows from these corners may be off [m]: more than above, if their digits say so.
+template <int Dim>
+double grain_tolerance(const Grain<Dim>& grain) {
+    const double rounding = coordinate_rounding<Dim>(grain.vertices);
+    const bool may_be_exact = rounding > 2.5e-4 * grain.radius;  // as for HullOptions
+    return std::max(file_tolerance * grain.radius, may_be_exact ? 0.0 : 4.0 * rounding);
+}
+
+inline std::string centroid_complaint(double off, double tolerance) {
+    if (off <= tolerance) return {};
+    return "has its centroid " + text_of(off) + " m from its position, but must have it within " +
+           text_of(tolerance) + " m";
+}
+
 /// What is wrong with these corners of a polygon relative to their centroid, or nothing.
-inline std::string shape_complaint(const std::vector<Vector<2>>& v, double radius) {
-    const std::size_t count = v.size();
-    double area = 0.0, turned = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
-        area += 0.5 * turn(Vector<2>::Zero(), v[i], v[(i + 1) % count]);
-    if (area <= file_tolerance * radius * radius)
+inline std::string shape_complaint(const std::vector<Vector<2>>& v, double tolerance) {
+    double area = 0.0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        area += 0.5 * turn(Vector<2>::Zero(), v[i], v[(i + 1) % v.size()]);
+    if (area <= file_tolerance * v[0].squaredNorm())
         return "has the area " + text_of(area) +
                " m^2, but must be positive, its vertices counter-clockwise";
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vector<2>&before = v[i], &corner = v[(i + 1) % count], &after = v[(i + 2) % count];
-        const double bend = turn(before, corner, after);
-        if (bend <= 1e-9 * radius * radius)
-            return "is not strictly convex at " + vertex_name((i + 1) % count) +
-                   ": every corner must turn left";
-        const Vector<2> in = corner - before, out = after - corner;
-        turned += std::atan2(bend, in.dot(out));
+    try {
+        convex_hull(std::span<const Vector<2>>(v), {.first_index = 1});
+    } catch (const input_error& error) {
+        return std::string("is not convex: ") + error.what();
     }
-    // A star turns left at every corner too, but goes round more than once.
-    if (turned > 7.0) return "is not convex: its sides cross, but must go round once";
-    if (const double off = centroid(v).norm(); off > file_tolerance * radius)
-        return "has its centroid " + text_of(off) + " m from its position, but must have it there";
-    return {};
+    return centroid_complaint(centroid(v).norm(), tolerance);
 }
 
 /// What is wrong with these corners of a polyhedron relative to their centroid, or nothing.
-inline std::string shape_complaint(const std::vector<Vector<3>>& v, double radius) {
-    const auto faces = hull_faces(v);
-    if (faces.empty()) return "is flat: its vertices must not lie in one plane";
-    for (std::size_t i = 0; i < v.size(); ++i)
-        if (std::none_of(faces.begin(), faces.end(), [i](const Face& f) {
-                return std::find(f.begin(), f.end(), i) != f.end();
-            }))
-            return "is not convex: " + vertex_name(i) + " lies inside the hull of the others";
-    const SolidCentre centre = solid_centre(v, faces);
-    if (centre.volume <= file_tolerance * radius * radius * radius)
-        return "has the volume " + text_of(centre.volume) + " m^3, but must be solid";
-    if (centre.centroid.norm() > file_tolerance * radius)
-        return "has its centroid " + text_of(centre.centroid.norm()) +
-               " m from its position, but must have it there";
-    return {};
+inline std::string shape_complaint(const std::vector<Vector<3>>& v, double tolerance) {
+    try {
+        const auto hull = convex_hull(std::span<const Vector<3>>(v), {.first_index = 1});
+        return centroid_complaint(solid_centre(v, hull.faces).centroid.norm(), tolerance);
+    } catch (const input_error& error) {
+        return std::string("is not convex and solid: ") + error.what();
+    }
 }
 
 /// What is wrong with a grain by itself, or nothing.
@@ -70,10 +69,11 @@ std::string grain_complaint(const Grain<Dim>& grain) {
                 return "has coincident vertices " + std::to_string(i + 1) + " and " +
                        std::to_string(j + 1) + ", but all must differ";
     const double reach = bounding_radius<Dim>(grain.vertices);
-    if (std::abs(reach - grain.radius) > file_tolerance * grain.radius)
+    const double tolerance = grain_tolerance(grain);
+    if (!(std::abs(reach - grain.radius) <= tolerance))
         return "has the bounding radius " + text_of(grain.radius) +
                " m, but must have that of its farthest vertex, " + text_of(reach) + " m";
-    return shape_complaint(grain.vertices, grain.radius);
+    return shape_complaint(grain.vertices, tolerance);
 }
 
 /// How a grain leaves the box, or nothing.
@@ -87,7 +87,7 @@ std::string box_complaint(const Grain<Dim>& grain, const Vector<Dim>& box_size) 
             high = high.cwiseMax(v);
         }
     }
-    const double slack = file_tolerance * grain.radius;
+    const double slack = grain_tolerance(grain);
     for (int i = 0; i < Dim; ++i) {
         const double from = grain.position[i] + low[i], to = grain.position[i] + high[i];
         if (from < -slack || to > box_size[i] + slack)

@@ -4,6 +4,8 @@
 #include <talus/core/check.hpp>
 #include <talus/core/input.hpp>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <istream>
@@ -13,11 +15,57 @@
 
 namespace talus {
 
+namespace detail {
+
+/// Length of the character at the beginning of `text` if it can be shown as it is: printable ASCII,
+/// or valid UTF-8 that neither controls nor formats; 0 if not.
+inline std::size_t showable_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0u;
+    };
+    const unsigned first = byte(0);
+    if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+    if (first < 0xc2 || first > 0xf4) return 0;
+    unsigned code = first & (0x7fu >> length);
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0u) != 0x80u) return 0;
+        code = code << 6 | (byte(i) & 0x3fu);
+    }
+    constexpr std::array least{0u, 0u, 0xa0u, 0x800u, 0x10000u};
+    const bool formats = (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
+                         (code >= 0x2060 && code <= 0x206f) || code == 0xfeff ||
+                         (code >= 0xd800 && code <= 0xdfff) || code > 0x10ffff;
+    return code < least[length] || formats ? 0 : length;
+}
+
+/// A word as complaints show it: control characters and bytes that are no text as \x1b, and of a
+/// very long one the beginning.
+inline std::string shown(std::string_view word, std::size_t longest = 80) {
+    constexpr std::string_view digit = "0123456789abcdef";
+    std::string text;
+    for (std::size_t i = 0; i < word.size();) {
+        if (text.size() >= longest) return text + "...";
+        const std::size_t length = showable_length(word.substr(i));
+        if (length == 0) {
+            const auto byte = static_cast<unsigned char>(word[i]);
+            text += {'\\', 'x', digit[byte >> 4], digit[byte & 15u]};
+        }
+        text += word.substr(i, length);
+        i += std::max<std::size_t>(length, 1);
+    }
+    return text;
+}
+
+}  // namespace detail
+
 /// Reads a text of words line by line and knows where it is: every complaint is one sentence naming
-/// the file, the line, the item, its value and the accepted range.
+/// the file, the line, the item, its value and the accepted range. A byte order mark of UTF-8 is
+/// passed over, others are refused.
 class LineReader {
   public:
-    LineReader(std::istream& text, std::string file) : text_(text), file_(std::move(file)) {}
+    LineReader(std::istream& text, std::string file)
+        : text_(text), file_(detail::shown(file, 4096)) {}
 
     /// Goes to the next line, which must exist; `what` says what it should hold.
     void next_line(std::string_view what) {
@@ -25,17 +73,29 @@ class LineReader {
         if (!read()) fail("the file", "ends, but must hold " + std::string(what) + " here");
     }
 
+    /// Goes to the next line that has words; returns whether there is one.
+    bool next_words() {
+        do ++line_;
+        while (read() && words_.empty());
+        return !words_.empty();
+    }
+    /// Words of the line that are not yet used.
+    std::size_t words_left() const { return words_.size() - used_; }
+    /// Whether the next word begins with #.
+    bool starts_comment() const { return words_left() > 0 && words_[used_].starts_with('#'); }
+
     /// Demands that nothing but white space follows.
     void expect_end_of_text() {
         for (++line_; read(); ++line_)
             if (!words_.empty())
-                fail("the text after the last grain", "is '" + words_[0] + "', but must be empty");
+                fail("the text after the last grain",
+                     "is '" + detail::shown(words_[0]) + "', but must be empty");
     }
 
     /// Demands that the line is used up.
     void expect_end_of_line() const {
         if (used_ < words_.size())
-            fail("column " + std::to_string(used_ + 1), "is '" + words_[used_] +
+            fail("column " + std::to_string(used_ + 1), "is '" + detail::shown(words_[used_]) +
                                                             "', but the line must end after " +
                                                             std::to_string(used_) + " columns");
     }
@@ -52,7 +112,8 @@ class LineReader {
     void keyword(std::string_view key) {
         const std::string& found = word("the key '" + std::string(key) + "'");
         if (found != key)
-            fail("a key", "is '" + found + "', but must be '" + std::string(key) + "'");
+            fail("a key",
+                 "is '" + detail::shown(found) + "', but must be '" + std::string(key) + "'");
     }
 
     /// A finite number in [low, high].
@@ -85,10 +146,18 @@ class LineReader {
         const bool whole = error == std::errc{} && end == text.data() + text.size();
         // A NaN fails the comparison, and so is refused like anything else that is out of range.
         if (!whole || !(value >= low && value <= high))
-            fail(item, "is '" + text + "', but must be " + std::string(kind) + " in [" +
-                           detail::text_of(static_cast<double>(low)) + ", " +
+            fail(item, "is '" + detail::shown(text) + "', but must be " + std::string(kind) +
+                           " in [" + detail::text_of(static_cast<double>(low)) + ", " +
                            detail::text_of(static_cast<double>(high)) + "]");
         return value;
+    }
+
+    void pass_byte_order_mark(std::string& line) const {
+        if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
+        for (const std::string_view mark : {"\xff\xfe", "\xfe\xff"})
+            if (line.starts_with(mark))
+                fail("the byte order mark", "is '" + detail::shown(mark) +
+                                                "', that of UTF-16, but the text must be UTF-8");
     }
 
     bool read() {
@@ -96,6 +165,7 @@ class LineReader {
         words_.clear();
         used_ = 0;
         if (!std::getline(text_, line)) return false;
+        if (line_ == 1) pass_byte_order_mark(line);
         constexpr std::string_view space = " \t\r\v\f";
         for (std::size_t at = line.find_first_not_of(space); at != std::string::npos;) {
             const std::size_t end = std::min(line.find_first_of(space, at), line.size());

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -23,6 +24,15 @@ inline constexpr long largest_grain_count = 10'000'000;
 inline constexpr long most_vertices = 64;
 inline constexpr double longest = 1e6;    ///< no length in a scene is greater [m]
 inline constexpr double shortest = 1e-9;  ///< no radius or side of a box is smaller [m]
+
+/// A number with `digits` significant digits, or the shortest that reads as the same bits for 0.
+inline std::string number_text(double x, int digits) {
+    char text[64];
+    const auto end =
+        digits > 0 ? std::to_chars(text, text + sizeof text, x, std::chars_format::general, digits)
+                   : std::to_chars(text, text + sizeof text, x, std::chars_format::general);
+    return std::string(text, end.ptr);
+}
 
 struct SceneHeader {
     int dim;
@@ -44,8 +54,9 @@ inline SceneHeader read_header(LineReader& in) {
     const std::string& shape = in.word("shape");
     header.corners = shape == corner_names[names];
     if (!header.corners && shape != ball_names[names])
-        in.fail("shape", "is '" + shape + "', but must be '" + ball_names[names] + "' or '" +
-                             corner_names[names] + "' in dim " + std::to_string(header.dim));
+        in.fail("shape", "is '" + detail::shown(shape) + "', but must be '" + ball_names[names] +
+                             "' or '" + corner_names[names] + "' in dim " +
+                             std::to_string(header.dim));
     in.keyword("n");
     header.grain_count = static_cast<std::size_t>(in.integer("n", 1, largest_grain_count));
     in.expect_end_of_line();
@@ -152,11 +163,12 @@ inline int scene_dimension(const std::filesystem::path& path) {
     return detail::read_header(in).dim;
 }
 
-/// The text of a scene file, nine significant digits. Throws input_error when balls and shapes with
-/// corners are mixed, which the format cannot say, or when there is no grain.
+/// The text of a scene file, as many digits as it takes to read back the same bits; or at most
+/// `digits` significant ones. Throws input_error when balls and shapes with corners are mixed,
+/// which the format cannot say, or when there is no grain.
 template <int Dim>
-std::string scene_text(const Scene<Dim>& scene) {
-    using detail::text_of;
+std::string scene_text(const Scene<Dim>& scene, int digits = 0) {
+    const auto text_of = [digits](double x) { return detail::number_text(x, digits); };
     const auto corners = static_cast<std::size_t>(std::count_if(
         scene.grains.begin(), scene.grains.end(), [](const auto& g) { return !g.is_ball(); }));
     require_in("grains with corners in a scene", static_cast<double>(corners),
@@ -181,10 +193,10 @@ std::string scene_text(const Scene<Dim>& scene) {
     return text;
 }
 
-/// Writes a scene file, whole or not at all.
+/// Writes a scene file, whole or not at all; `digits` as for scene_text.
 template <int Dim>
-void write_scene(const std::filesystem::path& path, const Scene<Dim>& scene) {
-    write_file(path, scene_text(scene));
+void write_scene(const std::filesystem::path& path, const Scene<Dim>& scene, int digits = 0) {
+    write_file(path, scene_text(scene, digits));
 }
 
 }  // namespace talus

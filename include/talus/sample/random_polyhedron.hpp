@@ -41,10 +41,10 @@ inline std::vector<Vector<3>> darts(Random& random, int count, double chord) {
 }
 
 /// Least distance from `centre` to the planes of the faces.
-inline double least_depth(std::span<const Vector<3>> points, std::span<const Face> faces,
+inline double least_depth(std::span<const Vector<3>> points, std::span<const VertexLoop> faces,
                           const Vector<3>& centre) {
     double least = 2.0;
-    for (const Face& f : faces) {
+    for (const VertexLoop& f : faces) {
         const Vector<3>& a = points[f[0]];
         const Vector<3> normal = (points[f[1]] - a).cross(points[f[2]] - a).normalized();
         least = std::min(least, normal.dot(a - centre));
@@ -69,7 +69,7 @@ inline std::vector<Vector<3>> random_polyhedron(Random& random, double radius,
         const double even = std::sqrt(8.0 * std::numbers::pi / (std::numbers::sqrt3 * count));
         auto corners = detail::darts(random, count, params.spread * even);
         if (corners.empty()) continue;
-        const auto faces = hull_faces(corners);
+        const auto faces = convex_hull(std::span<const Vector<3>>(corners)).faces;
         const Vector<3> centre = solid_centre(corners, faces).centroid;
         if (detail::least_depth(corners, faces, centre) < params.thickness) continue;
         for (auto& c : corners) c -= centre;
