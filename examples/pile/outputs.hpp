@@ -47,6 +47,11 @@ class MadeFolder {
 /// folder for pictures; all else stays as it is. Throws input_error, one sentence, and leaves no
 /// folder behind then.
 inline void try_outputs(const Options& o, const std::vector<int>& dimensions) {
+    std::error_code ignored;
+    if (!o.json.empty() && !o.scene.empty() &&
+        std::filesystem::equivalent(o.json, o.scene, ignored))
+        throw talus::input_error("--json is '" + o.json +
+                                 "', but must be another file than --scene");
     const char* option = "--out";
     try {
         MadeFolder folder(o.out);
@@ -58,11 +63,6 @@ inline void try_outputs(const Options& o, const std::vector<int>& dimensions) {
     } catch (const std::runtime_error& error) {
         throw talus::input_error(std::string(option) + ": " + error.what());
     }
-    std::error_code ignored;
-    if (!o.json.empty() && !o.scene.empty() &&
-        std::filesystem::equivalent(o.json, o.scene, ignored))
-        throw talus::input_error("--json is '" + o.json +
-                                 "', but must be another file than --scene");
 }
 
 }  // namespace pile
