@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -43,7 +43,7 @@ inline std::string text_of(const Figures& f) {
          f.reaction_over_weight(), f.reaction_over_weight_due());
     line("                       %.6f in the last step", f.last().reaction_over_weight);
     line("  energy               gravity gave %.4e J; friction took %.4e, impacts %.4e",
-         f.potential_start - f.last().potential, -f.given.friction, -f.given.impacts);
+         f.potential_start - f.last().potential, 0.0 - f.given.friction, 0.0 - f.given.impacts);
     line("                       left in motion %.2e J (rms speed %.1e m/s)", f.last().kinetic,
          f.speed());
     if (f.given.gyroscopic != 0.0 || f.given.correction != 0.0)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,10 @@ struct Possible {
     /// Between the force of the floor and what the momentum of the grains asks for, over the larger
     /// of weight and force [-]: rounding.
     double floor = 1e-6;
-    double closure = 1e-10;  ///< of the energy books [-]: rounding
+    double closure = 1e-10;  ///< of the energy books, over what went through [-]: rounding
+    /// Of positions, by which heights lose energy in each step [-]: where large masses hardly move,
+    /// more than what goes through.
+    double rounding = std::numeric_limits<double>::epsilon();
 };
 
 /// One sentence for each thing that the figures say and that cannot be.
@@ -52,7 +57,12 @@ inline std::vector<std::string> impossible_in(const Figures& f, const Possible& 
         say("The floor carried %.6g of the weight over the last tenth, but the momentum of the "
             "grains asks for %.6g.",
             floor, due);
-    if (!(f.energy_closure <= possible.closure))
+    const double largest_stored =
+        std::max(std::abs(f.potential_start), std::abs(f.last().potential));
+    const double unnoticed = possible.closure * through + possible.rounding *
+                                                              static_cast<double>(f.steps.size()) *
+                                                              largest_stored;
+    if (!(std::abs(f.energy_missing) <= unnoticed))
         say("The energy books miss %.3g J, %.1e of what went through, but energy does not come "
             "from nowhere.",
             f.energy_missing, f.energy_closure);
