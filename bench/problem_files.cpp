@@ -24,6 +24,7 @@ AnyProblem read(const std::filesystem::path& path) {
 }  // namespace
 
 std::vector<ProblemEntry> read_problem_files(const std::filesystem::path& folder) {
+    talus::silence_hdf5();
     std::vector<std::filesystem::path> paths;
     for (const auto& file : std::filesystem::recursive_directory_iterator(folder))
         if (file.path().extension() == ".hdf5") paths.push_back(file.path());

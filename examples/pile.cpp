@@ -4,118 +4,35 @@
 // the end comes a certificate of the answer, and pictures in the manner of Moreau: grains grey by
 // their load, force chains as segments as wide as the force.
 //
+// The simulation is in pile/settle.hpp, what a certificate finds impossible in pile/verdict.hpp.
+//
 // Sample runs:  examples/run
 //               examples/run pile --dim 3 --shape polyhedron --count 200
 //               examples/run pile --scene examples/scenes/discs.txt --json certificate.json
-#include <talus/geometry/convex_polytope.hpp>
 #include <talus/io/scene_file.hpp>
-#include <talus/sample/granulometry.hpp>
-#include <talus/sample/random_scene.hpp>
-#include <talus/stepping/gap_correction.hpp>
-#include <talus/stepping/simulation.hpp>
 
-#include <cmath>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <string>
+#include <vector>
 
-#include "pile_certificate.hpp"
-#include "pile_options.hpp"
-#include "pile_pictures.hpp"
-#include "progress.hpp"
+#include "pile/certificate.hpp"
+#include "pile/job.hpp"
+#include "pile/outputs.hpp"
+#include "pile/read_options.hpp"
+#include "pile/stop_request.hpp"
 
 namespace pile {
 
-/// A box some grains wide, so that the pile will be about as high as wide.
-template <int Dim>
-double box_width(std::size_t count, double radius) {
-    const double grains_per_side = std::pow(static_cast<double>(count), 1.0 / Dim);
-    return 2.0 * radius * std::max(3.0, 1.15 * grains_per_side);
+enum ExitCode { all_certified = 0, failed = 1, wrong_input = 2, not_certified = 3, stopped = 128 };
+
+void complain(const std::exception& error) {
+    std::fprintf(stderr, "pile: %s\n", talus::detail::printable(error.what()).c_str());
 }
 
-template <int Dim>
-talus::Scene<Dim> make_scene(const Options& o) {
-    if (!o.scene.empty()) return talus::read_scene<Dim>(o.scene);
-    const talus::UniformRadii radii(0.004, 0.006);  // [m], as in the common scenes
-    talus::RandomSceneParams params;
-    params.grain_count = static_cast<std::size_t>(o.count);
-    params.width = box_width<Dim>(params.grain_count, radii.mean());
-    params.seed = static_cast<std::uint64_t>(o.seed);
-    if (o.shape == "polygon" || o.shape == "polyhedron" || (o.shape.empty() && Dim == 2))
-        return talus::random_scene<Dim>(params, radii, RandomGrain<Dim>());
-    return talus::random_scene<Dim>(params, radii);
-}
-
-template <int Dim>
-struct PileTypes : talus::SimulationTypes<Dim> {
-    using GapCorrection = talus::GapCorrection<Dim>;
-};
-template <int Dim>
-using Pile = talus::Simulation<Dim, PileTypes<Dim>>;
-
-template <int Dim>
-Pile<Dim> make_simulation(const talus::Scene<Dim>& scene, const Options& o) {
-    using namespace talus;
-    SimulationParams params;
-    params.h = o.step;
-    params.step.scheme = o.scheme == "midpoint" ? Scheme::midpoint : Scheme::gap_anticipating;
-    params.step.gyroscopic = Gyroscopic::momentum_preserving;
-    Pile<Dim> sim({{o.mu.value_or(scene.mu)}, o.restitution, 0.0}, params);
-    sim.gap_correction().params.fraction = o.correction;
-    sim.solver().params.tolerance = o.tolerance;
-    sim.solver().params.max_sweeps = static_cast<int>(o.max_sweeps);
-
-    auto& system = sim.system();
-    const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
-    system.gravity = -scene.gravity * up;
-    system.add_obstacle(HalfSpace<Dim>(up, 0.0));
-    for (int axis = 0; axis + 1 < Dim; ++axis) {
-        system.add_obstacle(HalfSpace<Dim>(Vector<Dim>::Unit(axis), 0.0));
-        system.add_obstacle(HalfSpace<Dim>(-Vector<Dim>::Unit(axis), -scene.box_size[axis]));
-    }
-    for (const Grain<Dim>& grain : scene.grains) {
-        const Pose<Dim> pose{grain.position, {}};
-        if (grain.is_ball())
-            system.add(Ball<Dim>{grain.radius}, scene.density, pose);
-        else
-            system.add(ConvexPolytope<Dim>(grain.vertices), scene.density, pose);
-    }
-    return sim;
-}
-
-/// Settles one pile; returns its certificate.
-template <int Dim>
-nlohmann::json settle(const Options& o) {
-    const auto scene = make_scene<Dim>(o);
-    auto sim = make_simulation(scene, o);
-    std::printf("%dD: %zu grains, mu %g, h = %g s, %g s to settle\n", Dim, scene.grains.size(),
-                o.mu.value_or(scene.mu), o.step, o.duration);
-    Certificate<Dim> certificate(sim, o.tolerance, scene.mean_radius);
-    Progress progress(std::to_string(Dim) + "D");
-    const talus::RunSummary run = sim.run(o.duration, [&](const auto& s) {
-        certificate.record(s);
-        if (o.quiet) return;
-        char remark[100];
-        std::snprintf(remark, sizeof remark, "%zu contacts, %d sweeps, residual %.0e",
-                      certificate.last().contacts, certificate.last().sweeps,
-                      certificate.last().residual);
-        progress.show(s.time() / o.duration, remark);
-    });
-    if (run.steps == 0)
-        throw talus::input_error("--duration is less than half of --step, but must hold a step");
-    const double seconds = progress.seconds();
-    std::printf("Certificate\n%s", certificate.text(seconds).c_str());
-    for (const auto& file : write_pictures(sim, scene, certificate.mean_grain_weight(), o.out))
-        std::printf("  wrote %s\n", file.c_str());
-    auto json = certificate.json();
-    json["seconds"] = seconds;
-    json["step_s"] = o.step;
-    json["scene"] = o.scene;
-    return json;
-}
-
-void run(const Options& o) {
-    nlohmann::json all = nlohmann::json::array();
+/// The dimensions that are asked for. Throws input_error if the scene is of another one.
+std::vector<int> dimensions(const Options& o) {
     int dim = o.dim;
     if (!o.scene.empty()) {
         dim = talus::scene_dimension(o.scene);
@@ -125,25 +42,94 @@ void run(const Options& o) {
     } else if (dim == 0 && !o.shape.empty()) {
         dim = o.shape == "disc" || o.shape == "polygon" ? 2 : 3;
     }
-    if (dim != 3) all.push_back(settle<2>(o));
-    if (dim != 2) all.push_back(settle<3>(o));
-    if (!o.json.empty()) {
-        talus::write_file(o.json, all.dump(1) + "\n");
-        std::printf("  wrote %s\n", o.json.c_str());
-    }
+    return dim == 0 ? std::vector{2, 3} : std::vector{dim};
 }
+
+/// Settles piles one after the other, and writes what there is of each before the next one begins.
+class Program {
+  public:
+    explicit Program(const Options& o) : options_(o) {
+        const auto dims = dimensions(o);
+        for (const int dim : dims) jobs_.push_back(dim == 2 ? plane_job(o) : space_job(o));
+        try_outputs(o, dims);
+        if (!o.json.empty() && talus::is_standard_output(o.json)) words_ = stderr;
+    }
+
+    int run() {
+        StopRequest::listen();
+        for (const auto& job : jobs_) {
+            if (StopRequest::signal() != 0) break;
+            std::fprintf(words_, "%s\n", job->title().c_str());
+            std::fflush(words_);
+            settle(*job, job == jobs_.back());
+        }
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            fail(std::runtime_error("cannot write to standard output"));
+        if (failed_) return ExitCode::failed;
+        if (const int signal = StopRequest::signal()) return ExitCode::stopped + signal;
+        return certified_ ? ExitCode::all_certified : ExitCode::not_certified;
+    }
+
+  private:
+    /// Figures come before pictures, and what cannot be written does not keep the rest from it.
+    void settle(Job& job, bool last) {
+        const Figures figures = job.run();
+        all_.push_back(json_of(figures));
+        certified_ = certified_ && certified(figures);
+        if (!figures.failure.empty()) fail(std::runtime_error(figures.failure));
+        if (!options_.json.empty())
+            attempt([&] { write_json(last || StopRequest::signal() != 0); });
+        std::fprintf(words_, "Certificate\n%s", text_of(figures).c_str());
+        attempt([&] {
+            for (const std::string& file : job.write_pictures(figures.mean_grain_weight()))
+                say_written(file);
+        });
+        std::fflush(words_);
+    }
+
+    /// A file is written anew after each pile; what cannot be replaced, once.
+    void write_json(bool last) {
+        if (talus::is_stream(options_.json) && !last) return;
+        using Json = nlohmann::json;
+        talus::write_file(options_.json,
+                          all_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+        if (!talus::is_stream(options_.json)) say_written(options_.json);
+    }
+    void say_written(const std::string& file) {
+        std::fprintf(words_, "  wrote %s\n", talus::detail::printable(file).c_str());
+    }
+
+    template <class Action>
+    void attempt(Action&& action) {
+        try {
+            action();
+        } catch (const std::exception& error) {
+            fail(error);
+        }
+    }
+    void fail(const std::exception& error) {
+        complain(error);
+        failed_ = true;
+    }
+
+    Options options_;
+    std::vector<std::unique_ptr<Job>> jobs_;
+    nlohmann::json all_ = nlohmann::json::array();
+    std::FILE* words_ = stdout;
+    bool certified_ = true, failed_ = false;
+};
 
 }  // namespace pile
 
 int main(int argc, char** argv) {
     try {
-        if (const auto options = pile::read_options(argc, argv)) pile::run(*options);
-        return 0;
+        const auto options = pile::read_options(argc, argv);
+        return options ? pile::Program(*options).run() : 0;
     } catch (const talus::input_error& error) {
-        std::fprintf(stderr, "pile: %s\n", error.what());
-        return 2;
+        pile::complain(error);
+        return pile::ExitCode::wrong_input;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "pile: %s\n", error.what());
-        return 1;
+        pile::complain(error);
+        return pile::ExitCode::failed;
     }
 }

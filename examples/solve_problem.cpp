@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "number_option.hpp"
+#include "solve_problem/file_units.hpp"
 
 namespace {
 
@@ -37,22 +38,6 @@ struct Options {
     talus::SolverSettings settings;
     std::string json;  ///< file; empty: none
 };
-
-/// || r - P_K(r - (u + mu |u_t| n)) || / max(|| q ||, || r ||, || u ||) over all contacts; 0 / 0 is
-/// 0.
-template <int Dim>
-double residual_in_file_units(const talus::AssembledProblem<Dim, Law<Dim>>& p,
-                              const std::vector<talus::Vector<Dim>>& r) {
-    const auto u = talus::solution_of<Dim>(p, r).relative_velocity;
-    double error = 0.0, q2 = 0.0, r2 = 0.0, u2 = 0.0;
-    for (std::size_t c = 0; c < r.size(); ++c) {
-        error += (r[c] - p.laws[c].natural_map(u[c], r[c], 1.0)).squaredNorm();
-        q2 += p.free_velocity[c].squaredNorm();
-        r2 += r[c].squaredNorm();
-        u2 += u[c].squaredNorm();
-    }
-    return error > 0.0 ? std::sqrt(error / std::max({q2, r2, u2})) : 0.0;
-}
 
 template <int Dim>
 nlohmann::json solve(const std::string& file, const Options& o) {
@@ -71,38 +56,44 @@ nlohmann::json solve(const std::string& file, const Options& o) {
             {"iterations", report.iterations},
             {"seconds", time.count()},
             {"residual", report.residual},
-            {"residual_in_file_units", residual_in_file_units<Dim>(problem, r)}};
+            {"residual_in_file_units", solve_problem::residual_in_file_units<Dim>(problem, r)}};
 }
 
 /// A line of the table.
-void print(const nlohmann::json& j) {
-    std::printf("%-40s %dD %5zu  %s %-15s %6d iterations %10.3f ms  %.1e  %.1e\n",
-                j["name"].get<std::string>().c_str(), j["dimension"].get<int>(),
-                j["contacts"].get<std::size_t>(), j["solver"].get<std::string>().c_str(),
-                j["status"].get<std::string>().c_str(), j["iterations"].get<int>(),
-                1e3 * j["seconds"].get<double>(), j["residual"].get<double>(),
-                j["residual_in_file_units"].get<double>());
+void print(std::FILE* words, const nlohmann::json& j) {
+    std::fprintf(words, "%-40s %dD %5zu  %s %-15s %6d iterations %10.3f ms  %.1e  %.1e\n",
+                 talus::detail::printable(j["name"].get<std::string>()).c_str(),
+                 j["dimension"].get<int>(), j["contacts"].get<std::size_t>(),
+                 j["solver"].get<std::string>().c_str(), j["status"].get<std::string>().c_str(),
+                 j["iterations"].get<int>(), 1e3 * j["seconds"].get<double>(),
+                 j["residual"].get<double>(), j["residual_in_file_units"].get<double>());
 }
 
 /// Solves all that can be; returns the exit code.
 int run(const Options& o) {
-    // A wrong name or setting is said once, not for every file.
+    // A wrong name or setting is said once, not for every file; and whether the figures can be
+    // kept, before there are any.
     talus::make_solver<3, Law<3>>(o.solver, o.settings);
+    if (!o.json.empty()) talus::require_writable(o.json);
+    std::FILE* const words = !o.json.empty() && talus::is_standard_output(o.json) ? stderr : stdout;
     nlohmann::json all = nlohmann::json::array();
     bool converged = true, refused = false;
-    std::printf(
+    std::fprintf(
+        words,
         "problem, dimension, contacts, solver, status, iterations, time, residual, residual in "
         "file units\n");
     for (const auto& file : o.files) try {
             all.push_back(talus::problem_dimension(file) == 2 ? solve<2>(file, o)
                                                               : solve<3>(file, o));
-            print(all.back());
+            print(words, all.back());
             converged = converged && all.back()["status"] == "converged";
         } catch (const talus::input_error& error) {
             std::fprintf(stderr, "solve_problem: %s\n", error.what());
             refused = true;
         }
-    if (!o.json.empty()) talus::write_file(o.json, all.dump(1) + "\n");
+    if (!o.json.empty())
+        talus::write_file(o.json,
+                          all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return refused ? 2 : converged ? 0 : 1;
 }
 
@@ -129,7 +120,10 @@ std::optional<Options> read_options(int argc, char** argv) {
     app.add_option("--solver", o.solver, known_solvers());
     add_number(app, "--tolerance", o.settings.tolerance, 0, 1, "on the residual (1e-8)");
     add_number(app, "--iterations", iterations, 0, 1e9, "allowed per problem (10000)");
-    app.add_option("--json", o.json, "file for the same figures");
+    app.add_option(
+        "--json", o.json,
+        "file for the same figures; - or /dev/stdout: standard output, the table then goes to "
+        "standard error");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success&) {
@@ -140,17 +134,19 @@ std::optional<Options> read_options(int argc, char** argv) {
                                  " (solve_problem --help lists the options)");
     }
     o.settings.max_iterations = static_cast<int>(iterations);
+    if (o.json == "-") o.json = "/dev/stdout";
     return o;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    talus::silence_hdf5();
     try {
         const auto options = read_options(argc, argv);
         return options ? run(*options) : 0;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "solve_problem: %s\n", error.what());
+        std::fprintf(stderr, "solve_problem: %s\n", talus::detail::printable(error.what()).c_str());
         return 2;
     }
 }

@@ -61,4 +61,23 @@ BOOST_AUTO_TEST_CASE(contact_keys_are_ordered_by_bodies_then_feature) {
     BOOST_CHECK((ContactKey{1, 3, {1}} == ContactKey{1, 3, {1}}));
 }
 
+BOOST_AUTO_TEST_CASE(text_of_others_is_shown_without_its_control_characters) {
+    using talus::detail::printable;
+    BOOST_TEST(printable("a\x1b[2Jb\n\tc\x7f\x01") == R"(a\x1b[2Jb\n\tc\x7f\x01)");
+    const std::string nothing_to_do = "Körner, \u20ac, \U0001F600";
+    BOOST_TEST(printable(nothing_to_do) == nothing_to_do);
+    BOOST_TEST(printable("\xc2\x9b") == R"(\xc2\x9b)");        // a control character
+    BOOST_TEST(printable("\xff x \xc3") == R"(\xff x \xc3)");  // no UTF-8
+    BOOST_TEST(printable("\xc0\x8a\xed\xa0\x80").find('\xc0') == std::string::npos);
+    BOOST_TEST(printable("\xe2\x82"
+                         "a") == R"(\xe2\x82a)");
+    BOOST_TEST(printable(std::string_view("\0", 1)) == R"(\x00)");
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_input_are_one_line_of_text) {
+    BOOST_CHECK_EXCEPTION(
+        throw input_error("file 'a\nb\x1b]0;c\a'"), input_error,
+        [](const auto& e) { return std::string(e.what()) == R"(file 'a\nb\x1b]0;c\x07')"; });
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -3,6 +3,7 @@
 """usage: test_solve_problem.py SOLVE_PROBLEM SHARED    runs the program on problem files of SHARED, and on wrong ones."""
 import json
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -76,6 +77,37 @@ class SolveProblem(unittest.TestCase):
         (self.folder / "wrong.hdf5").write_text("no problem")
         result = self.assert_rejected(["wrong.hdf5", "HDF5"], "wrong.hdf5", SPATIAL)
         self.assertIn(SPATIAL.stem, result.stdout)
+
+    def test_damaged_files_are_complained_of_by_the_program_alone(self):
+        """The HDF5 library, at the end of a program, speaks of what such files left open; not here."""
+        self.need_problems()
+        whole, dice = SPATIAL.read_bytes(), random.Random(1)
+        for _ in range(60):
+            damaged = bytearray(whole)
+            for _ in range(dice.choice((1, 3, 20))):
+                damaged[dice.randrange(dice.choice((200, 2000, len(damaged))))] = dice.randrange(256)
+            (self.folder / "damaged.hdf5").write_bytes(damaged)
+            result = self.run_on("damaged.hdf5", "--iterations", "20")
+            self.assertIn(result.returncode, (0, 1, 2))
+            for line in result.stderr.splitlines():
+                self.assertTrue(line.startswith("solve_problem: "), line)
+
+    def test_figures_alone_on_standard_output(self):
+        self.need_problems()
+        for name in ("-", "/dev/stdout"):
+            result = self.run_on(SPATIAL, "--json", name)
+            self.assertEqual(json.loads(result.stdout)[0]["name"], SPATIAL.stem)
+            self.assertIn(SPATIAL.stem, result.stderr)
+
+    def test_figures_that_cannot_be_written_are_said_before_the_work(self):
+        self.need_problems()
+        result = self.assert_rejected(["nowhere/verdict.json"], SPATIAL, "--json", "nowhere/verdict.json")
+        self.assertEqual(result.stdout, "")
+
+    def test_names_are_shown_without_control_characters(self):
+        result = self.run_on("no\x1b[31m\nfile")
+        self.assertEqual(result.stderr.count("\n"), 1)
+        self.assertIn("no\\x1b[31m\\nfile", result.stderr)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/printable.hpp>
+
 #include <stdexcept>
 #include <string>
 
@@ -13,10 +15,12 @@ class precondition_error : public std::logic_error {
 };
 
 /// Bad input from outside (a file, a mesh, a negative mass). The message names the item, its value
-/// and the accepted range. Thrown before any state changes.
+/// and the accepted range, on one line: control characters of the input are shown as \n, \x1b.
+/// Thrown before any state changes.
 class input_error : public std::invalid_argument {
   public:
-    using std::invalid_argument::invalid_argument;
+    explicit input_error(const std::string& message)
+        : std::invalid_argument(detail::printable(message)) {}
 };
 
 namespace detail {

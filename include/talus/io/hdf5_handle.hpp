@@ -4,6 +4,15 @@
 #include <hdf5.h>
 #include <utility>
 
+namespace talus {
+
+/// Keeps the HDF5 library from printing errors for the rest of the program, at its very end too,
+/// where it complains of what a damaged file left open. For programs: readers and writers are quiet
+/// by themselves, but leave the setting as they found it.
+inline void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+}  // namespace talus
+
 namespace talus::detail {
 
 /// Keeps the HDF5 library from printing its errors while it lives; afterwards they go where they

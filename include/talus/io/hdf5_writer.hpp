@@ -65,7 +65,7 @@ class Hdf5Writer {
         constexpr std::size_t growth = 1 << 20;  // bytes of memory taken at a time
         const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
         require(H5Pset_fapl_core(access.id(), growth, /*backing_store=*/false) >= 0);
-        // HDF5 wants a name, and looks for it on disk.
+        // HDF5 wants a name, and looks for it on disk, though it writes nothing there.
         Hdf5Handle file(
             H5Fcreate((path.string() + ".part").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()),
             &H5Fclose);

@@ -186,10 +186,11 @@ talus::VtkPolyData vtk_contacts(const Snapshot<Dim>& s) {
     return data;
 }
 
-/// Writes all pictures of a settled pile into a folder; returns their names.
+/// Writes all pictures of a settled pile into the files of picture_files; returns their names.
 template <class Simulation, int Dim>
 std::vector<std::string> write_pictures(const Simulation& sim, const talus::Scene<Dim>& scene,
-                                        double mean_grain_weight, const std::string& folder) {
+                                        double mean_grain_weight,
+                                        const std::vector<std::filesystem::path>& files) {
     const auto s = snapshot(sim, scene);
     talus::DrawingParams params;
     if (mean_grain_weight > 0.0) {
@@ -206,17 +207,15 @@ std::vector<std::string> write_pictures(const Simulation& sim, const talus::Scen
         Dim == 2 ? (balls ? " discs" : " polygons") : (balls ? " spheres" : " polyhedra");
     const std::string title = std::to_string(s.grains.size()) + kind + " after " +
                               talus::detail::text_of(sim.time()) + " s";
-    const std::filesystem::path base =
-        std::filesystem::path(folder) / ("pile-" + std::to_string(Dim) + "d");
-    std::filesystem::create_directories(folder);
     std::vector<std::string> written;
-    const auto write = [&](const char* ending, const std::string& text) {
-        written.push_back(base.string() + ending);
-        talus::write_file(written.back(), text);
+    const auto write = [&](const std::string& text) {
+        const auto& file = files[written.size()];
+        talus::write_file(file, text);
+        written.push_back(file.string());
     };
-    write(".svg", picture(s, params, title, {caption}));
-    write("-grains.vtp", talus::vtp_text(vtk_grains(s)));
-    write("-contacts.vtp", talus::vtp_text(vtk_contacts(s)));
+    write(picture(s, params, title, {caption}));
+    write(talus::vtp_text(vtk_grains(s)));
+    write(talus::vtp_text(vtk_contacts(s)));
     return written;
 }
 
