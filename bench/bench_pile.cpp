@@ -31,8 +31,12 @@ std::size_t bytes_in_use() {
 }
 
 template <int Dim>
+struct PileTypes : talus::SimulationTypes<Dim> {
+    using Solver = talus::GaussSeidel<Dim, talus::DefaultLaw<Dim>>;
+};
+template <int Dim>
 struct Pile {
-    std::unique_ptr<talus::Simulation<Dim>> sim;
+    std::unique_ptr<talus::Simulation<Dim, PileTypes<Dim>>> sim;
     double bytes_per_grain = 0.0;
 };
 
@@ -52,7 +56,8 @@ Pile<Dim>& settled_pile(std::int64_t grains) {
     SimulationParams settings;
     settings.h = h;
     settings.step.scheme = Scheme::gap_anticipating;
-    pile.sim = std::make_unique<Simulation<Dim>>(DefaultLaw<Dim>{{scene.mu}}, settings);
+    pile.sim =
+        std::make_unique<Simulation<Dim, PileTypes<Dim>>>(DefaultLaw<Dim>{{scene.mu}}, settings);
     auto& system = pile.sim->system();
     const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
     system.gravity = -scene.gravity * up;

@@ -23,6 +23,7 @@ constexpr double step_length = 1e-3;  // h [s]
 template <int Dim>
 struct Types : talus::SimulationTypes<Dim> {
     using Law = bench::Law<Dim>;
+    using Solver = talus::GaussSeidel<Dim, Law>;
 };
 
 template <int Dim>

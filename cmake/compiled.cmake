@@ -23,8 +23,8 @@ talus_compiled_source(space solver/solver_registry)
 talus_compiled_source(plane solver/solver_registry)
 talus_compiled_source(functions
   solver/solver_registry problem/matrix_problem geometry/convex_polytope)
-talus_compiled_source(space stepping/simulation)
-talus_compiled_source(plane stepping/simulation)
+talus_compiled_source(space stepping/simulation stepping/equilibrium)
+talus_compiled_source(plane stepping/simulation stepping/equilibrium)
 
 add_library(talus_compiled STATIC ${talus_compiled_sources})
 add_library(talus::compiled ALIAS talus_compiled)

@@ -19,5 +19,6 @@
 #include <talus/measure/momentum.hpp>
 #include <talus/measure/penetration.hpp>
 #include <talus/measure/stress.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>

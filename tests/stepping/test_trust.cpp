@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What a simulation must not do in silence: move when it throws, miss a change, believe an
 // inaccurate solver, or depend on settings that a first program would not make.
-#include <talus/solver/sweeps/gauss_seidel.hpp>
+#include <talus/solver/automatic.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/gap_correction.hpp>
 
@@ -11,7 +11,6 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "common/dimensions.hpp"
@@ -206,48 +205,70 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_verdict_needs_an_accurate_solver, D, dimensions)
     BOOST_TEST(report.reason.find("residual") != std::string::npos);
 }
 
-// M / m from 1e1 to 1e9: the heavy ball's fall shows in no sum over contacts.
-BOOST_AUTO_TEST_CASE_TEMPLATE(a_light_ball_that_does_not_carry_a_heavy_one_is_reported, D,
-                              dimensions) {
+// M / m from 1e3 to 1e9: the heavy ball's fall shows in no sum over contacts.
+BOOST_AUTO_TEST_CASE_TEMPLATE(light_balls_under_heavy_ones_carry_them_or_miss, D, dimensions) {
     constexpr int Dim = D::value;
     using Law = talus::DefaultLaw<Dim>;
-    int hidden = 0, right = 0;
+    const auto carried = [](auto solver, double r) {
+        talus::System<Dim, Law> system(law<Dim>(0.3));
+        system.gravity = -g * up<Dim>();
+        system.add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
+        system.add(talus::Ball<Dim>{r}, 2000.0, {r * up<Dim>(), {}});
+        system.add(talus::Ball<Dim>{1.0}, 2000.0, {(2 * r + 1.0) * up<Dim>(), {}});
+        talus::MoreauMidpoint<Dim, Law, talus::AnyShape<Dim>, talus::HierarchicalGrid<Dim>> step;
+        talus::StepData<Dim, Law> data;
+        const double weight = (system.bodies.mass(1) + system.bodies.mass(2)) * g * 1e-3;
+        step.step(system, 0.0, 1e-3, {.contact_tolerance = 1e-9 * r}, solver, data);
+        double floor = 0.0;
+        for (const auto& r_c : data.impulse) floor = std::max(floor, r_c[0]);
+        const bool converged = data.report.status == talus::SolveStatus::converged;
+        return std::pair{converged, floor / weight};
+    };
     for (const double r : {0.1, 0.01, 0.001})
-        for (const int sweeps : {1, 1000, 200000}) {
-            talus::System<Dim, Law> system(law<Dim>(0.3));
-            system.gravity = -g * up<Dim>();
-            system.add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
-            system.add(talus::Ball<Dim>{r}, 2000.0, {r * up<Dim>(), {}});
-            system.add(talus::Ball<Dim>{1.0}, 2000.0, {(2 * r + 1.0) * up<Dim>(), {}});
-            talus::MoreauMidpoint<Dim, Law, talus::AnyShape<Dim>, talus::HierarchicalGrid<Dim>>
-                step;
-            talus::StepData<Dim, Law> data;
-            talus::GaussSeidel<Dim, Law> solver({.max_sweeps = sweeps, .tolerance = 1e-10});
-            step.step(system, 0.0, 1e-3, {.contact_tolerance = 1e-9 * r}, solver, data);
-            double floor = 0.0;
-            for (const auto& r_c : data.impulse) floor = std::max(floor, r_c[0]);
-            const double weight = (system.bodies.mass(1) + system.bodies.mass(2)) * g * data.h;
-            const double missing = std::abs(1.0 - floor / weight);
-            BOOST_TEST(data.report.contact_error >= 0.5 * missing - 1e-6);
-            BOOST_TEST(data.report.velocity_error >= 0.5 * (missing - 1e-6) * g * data.h);
-            hidden += missing > 0.5 && data.report.residual < 0.1 * missing ? 1 : 0;
-            right += missing < 1e-6 ? 1 : 0;
+        for (const double tolerance : {1e-4, 1e-8, 1e-12}) {
+            const auto [swept, floor] = carried(
+                talus::GaussSeidel<Dim, Law>({.max_sweeps = 1000, .tolerance = tolerance}), r);
+            if (swept) BOOST_TEST(std::abs(floor - 1.0) <= 20.0 * tolerance);
+            const auto [solved, load] =
+                carried(talus::Automatic<Dim, Law>({.tolerance = tolerance}), r);
+            // Solved up to a ratio of masses of a million, and never wrong in silence.
+            if (std::pow(r, -Dim) < 1.1e6) BOOST_TEST(solved);
+            if (solved) BOOST_TEST(std::abs(load - 1.0) <= 20.0 * tolerance);
         }
-    BOOST_TEST(hidden > 0);
-    BOOST_TEST(right > 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_tower_of_fifty_squares_stands_with_all_defaults) {
+    auto sim = boxes_on_a_floor<2>(50, 0.005);
+    const auto run = sim.run(0.5);
+    BOOST_TEST(run.certified(), to_string(run));
+    double turned = 0.0;
+    for (const auto& rotation : sim.system().bodies.rotation)
+        turned = std::max(turned, std::abs(rotation.angle()));
+    // Where a contact may violate its law by a hundredth, not a thousandth, it falls within 2 s.
+    BOOST_TEST(turned < 0.01);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_first_pile_misses_no_tolerance, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = heap<Dim>(Dim == 2 ? 8 : 4, Dim == 2 ? 10 : 5, law<Dim>(0.4), 2e-3);
+    const auto run = sim.run(0.6);
+    BOOST_TEST(run.missed == 0, to_string(run));
+    BOOST_TEST(run.steps == 300);
+    BOOST_TEST(run.residual.value > 0.0);
+    BOOST_TEST(run.residual.value <= 1e-4);
+    BOOST_TEST(run.contact_error.value <= 1e-3);
+    BOOST_TEST(run.contact_error.b >= 0);
+    BOOST_TEST(to_string(run).find("300 steps, 0 missed") == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_says_what_it_missed) {
     auto sim = heap<2>(6, 6, law<2>(0.4), 2e-3);
-    sim.solver().params = {.max_sweeps = 2, .tolerance = 1e-4};
+    sim.solver().params.max_iterations = 2;
     const auto run = sim.run(0.4);
     BOOST_TEST(run.missed > 10);
     BOOST_TEST(!run.certified());
     BOOST_TEST(run.residual.value > 1e-4);
-    BOOST_TEST(run.contact_error.value > run.residual.value);
-    BOOST_TEST(run.contact_error.b >= 0);
     BOOST_TEST(run.overlap.value > 0.0);
-    BOOST_TEST(to_string(run).find(std::to_string(run.missed) + " missed") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(durations_that_no_run_can_make_are_refused) {

@@ -106,6 +106,7 @@ class Automatic {
         const Residual now =
             measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
                                             [&](std::size_t i) { return task.w.velocity(i); });
+        report_.whole = now.whole;
         report_.contact_error = now.contact;
         report_.velocity_error = now.velocity;
         report_.worst_contact = now.worst_contact;

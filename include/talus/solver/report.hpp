@@ -11,7 +11,8 @@ namespace talus {
 
 /// How a solve ended.
 enum class SolveStatus {
-    converged,        ///< the residual of the returned impulses is at or below the tolerance
+    converged,        ///< the residual of the returned impulses, as a whole and at the worst contact, is at or
+                      ///< below the tolerance
     iteration_limit,  ///< it is not: allow more iterations, accept a larger tolerance or change the
                       ///< solver
     stalled,          ///< it is not, and more iterations of this solver would not help
@@ -39,9 +40,9 @@ struct SolveStage {
 struct SolveReport {
     SolveStatus status = SolveStatus::iteration_limit;
     int iterations = 0;     ///< sweeps, factorisations...: what the solver counts
-    double residual = 0.0;  ///< relative natural-map residual of the exact law, of the whole [-]
-    /// The same of the worst contact, in the scale of its island [-]: some 400 residuals in a pile
-    /// at rest, up to 1 where a light grain under a heavy one was not solved.
+    double residual = 0.0;  ///< what the tolerance is set on: Residual::relative [-]
+    double whole = 0.0;     ///< relative natural-map residual of all contacts together [-]
+    /// The same of the worst contact, in the scale of its island [-].
     double contact_error = 0.0;
     double velocity_error = 0.0;    ///< largest velocity by which a contact violates its law [m/s]
     std::size_t worst_contact = 0;  ///< the contact that is worst in the scale of its island
@@ -50,6 +51,7 @@ struct SolveReport {
 
     void take(const Residual& r) {
         residual = r.relative;
+        whole = r.whole;
         contact_error = r.contact;
         velocity_error = r.velocity;
         worst_contact = r.worst_contact;

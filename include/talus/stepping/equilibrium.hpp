@@ -181,3 +181,6 @@ EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::GaussSeidel<2, talus::DefaultLaw<2>>)
+TALUS_IN_SPACE(class talus::GaussSeidel<3, talus::DefaultLaw<3>>)

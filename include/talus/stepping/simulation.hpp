@@ -50,9 +50,11 @@ class Simulation {
     using Data = StepData<Dim, Law>;
 
     /// Throws input_error if a setting is out of range.
-    explicit Simulation(SystemType system, SimulationParams params = {}, Solver solver = Solver());
+    explicit Simulation(SystemType system, SimulationParams params = {},
+                        Solver solver = default_solver<Dim, Types>());
     /// One material.
-    explicit Simulation(const Law& law, SimulationParams params = {}, Solver solver = Solver())
+    explicit Simulation(const Law& law, SimulationParams params = {},
+                        Solver solver = default_solver<Dim, Types>())
         : Simulation(SystemType(law), params, std::move(solver)) {}
 
     /// Advances by one step; returns what it did. Whatever is thrown on the way (by a law, a force,
@@ -136,7 +138,7 @@ auto Simulation<Dim, Types>::step() -> const Data& {
 
 }  // namespace talus
 
-TALUS_IN_PLANE(class talus::GaussSeidel<2, talus::DefaultLaw<2>>)
+TALUS_IN_PLANE(class talus::AcceleratedGaussSeidel<2, talus::DefaultLaw<2>>)
 TALUS_IN_PLANE(class talus::Simulation<2>)
-TALUS_IN_SPACE(class talus::GaussSeidel<3, talus::DefaultLaw<3>>)
+TALUS_IN_SPACE(class talus::AcceleratedGaussSeidel<3, talus::DefaultLaw<3>>)
 TALUS_IN_SPACE(class talus::Simulation<3>)

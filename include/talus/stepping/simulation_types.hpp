@@ -3,7 +3,7 @@
 
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/solver/concepts.hpp>
-#include <talus/solver/sweeps/gauss_seidel.hpp>
+#include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
 #include <talus/stepping/step_hooks.hpp>
 #include <talus/stepping/system.hpp>
 
@@ -12,8 +12,14 @@
 
 namespace talus {
 
-/// Stands for Gauss-Seidel with whatever law the simulation has.
-struct DefaultSolver {};
+/// Stands for Gauss-Seidel with momentum, with whatever law the simulation has, and settings that
+/// let piles of some thousand grains come to rest without a step that misses its tolerance. At 1e-4
+/// no contact violates its law by more than a thousandth of what it would without impulses: towers
+/// of fifty blocks stand with that, and fall with a hundredth.
+struct DefaultSolver {
+    static constexpr AcceleratedGaussSeidelParams params{
+        .max_iterations = 5000, .tolerance = 1e-4, .acceleration = Acceleration::nesterov};
+};
 
 /// A simulation without correction of positions: the paper's, and the default. Costs nothing.
 struct NoGapCorrection {
@@ -44,7 +50,16 @@ struct SimulationTypes {
 
 /// The solver that such types ask for.
 template <int Dim, class Types>
-using SolverOf = std::conditional_t<std::same_as<typename Types::Solver, DefaultSolver>,
-                                    GaussSeidel<Dim, typename Types::Law>, typename Types::Solver>;
+using SolverOf =
+    std::conditional_t<std::same_as<typename Types::Solver, DefaultSolver>,
+                       AcceleratedGaussSeidel<Dim, typename Types::Law>, typename Types::Solver>;
+/// One with its own defaults, or with those of DefaultSolver.
+template <int Dim, class Types>
+SolverOf<Dim, Types> default_solver() {
+    if constexpr (std::same_as<typename Types::Solver, DefaultSolver>)
+        return SolverOf<Dim, Types>(DefaultSolver::params);
+    else
+        return SolverOf<Dim, Types>();
+}
 
 }  // namespace talus

@@ -77,7 +77,8 @@ class ConeSystem {
             r[c] = scaled.template segment<Dim>(first(c)) * scale_[c];
     }
 
-    /// The residual of ResidualMeasure at r, with u = W r + q.
+    /// The residual of ResidualMeasure at r, with u = W r + q. Of the whole alone if the measure was
+    /// given W alone.
     double residual(const Vec& r, const Vec& u) const;
 
     /// What one factorisation and its solves cost, in visits of a contact by a sweep over the
@@ -107,7 +108,8 @@ class ConeSystem {
     void apply_inverse(const Vec& b, Vec& x) const;
 
     std::vector<FrictionCone<Dim>> cones_;
-    std::vector<double> scale_;  ///< sqrt(rho_c)
+    std::vector<double> scale_;      ///< sqrt(rho_c)
+    mutable ContactScales islands_;  ///< of the measure; written by every look at it
     Vec q_;
     bool in_body_space_ = false;
     bool analyzed_ = false;
@@ -148,6 +150,7 @@ void ConeSystem<Dim>::set_common(std::span<const Vector<Dim>> free_velocity,
                                  std::vector<FrictionCone<Dim>> cones,
                                  const ResidualMeasure<Dim>& measure) {
     cones_ = std::move(cones);
+    islands_ = measure.scales();
     scale_.resize(cones_.size());
     q_.resize(static_cast<Eigen::Index>(Dim * cones_.size()));
     for (std::size_t c = 0; c < cones_.size(); ++c) {
@@ -213,16 +216,26 @@ void ConeSystem<Dim>::multiply(const Vec& r, Vec& u) const {
 
 template <int Dim>
 double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
+    const bool by_contacts = islands_.contact_count() == contact_count();
     double sum = 0.0;
+    islands_.begin();
     for (std::size_t c = 0; c < contact_count(); ++c) {
         const Vector<Dim> rc = r.template segment<Dim>(first(c));
         const Vector<Dim> corrected =
             de_saxce_corrected<Dim>(u.template segment<Dim>(first(c)), cones_[c].mu);
-        sum += (rc - cones_[c].project(rc - corrected)).squaredNorm();
+        const double error = (rc - cones_[c].project(rc - corrected)).squaredNorm();
+        sum += error;
+        const double mass = scale_[c] * scale_[c];
+        if (by_contacts) islands_.see(c, error / mass, rc.squaredNorm() / mass);
     }
-    const double scale = std::max(r.norm(), q_.norm());
     // 0 / 0 is solved; a problem at rest without impulses has no scale to be wrong by.
-    return sum == 0.0 ? 0.0 : scale == 0.0 ? 1.0 : std::sqrt(sum) / scale;
+    if (sum == 0.0) return 0.0;
+    const double scale = std::max(r.norm(), q_.norm());
+    Residual result;
+    result.whole = scale == 0.0 ? 1.0 : std::sqrt(sum) / scale;
+    if (by_contacts) islands_.judge(result);
+    result.combine();
+    return result.relative;
 }
 
 template <int Dim>
