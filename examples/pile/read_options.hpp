@@ -94,10 +94,9 @@ inline std::optional<Options> read_options(int argc, char** argv) {
     add_number(app, "--step", o.step, 1e-9, 1e3,
                "step size [s] (5e-4: a fraction of a grain's time to fall its own radius)");
     app.add_option("--solver", o.solver, known_solvers());
-    add_number(
-        app, "--tolerance", o.tolerance, 1e-14, 1,
-        "on the residual of every step, of all contacts and of the worst (1e-3); 1e-8 is for "
-        "the patient");
+    add_number(app, "--tolerance", o.tolerance, 1e-14, 1,
+               "on the residual of every step: of all contacts together, and a tenth of the worst "
+               "one's (1e-4); 1e-8 is for the patient");
     add_number(app, "--max-sweeps", o.max_sweeps, 1, 1e9,
                "sweeps, or what else the solver counts, allowed per step (5000); steps that miss "
                "the tolerance are counted");

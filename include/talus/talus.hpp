@@ -22,3 +22,4 @@
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>
+#include <talus/stepping/step_queries.hpp>

@@ -50,8 +50,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_dumped_step_is_as_good_as_the_simulation_said, D
         const auto residual = measure.template evaluate<talus::Coulomb<Dim>>(
             local.free_velocity, local.laws, r,
             [&](std::size_t i) { return local.delassus.velocity(i); });
-        digits_lost =
-            std::max(digits_lost, std::abs(residual.relative - s.data().report.residual));
+        digits_lost = std::max(digits_lost, std::abs(residual.relative - s.data().report.residual));
     });
     BOOST_TEST(run.missed == 0);
     const double rounding = 1e-13;  // of a relative residual, in a pile of five

@@ -11,8 +11,8 @@ namespace talus {
 
 /// How a solve ended.
 enum class SolveStatus {
-    converged,        ///< the residual of the returned impulses, as a whole and at the worst contact, is at or
-                      ///< below the tolerance
+    converged,  ///< the residual of the returned impulses, as a whole and at the worst contact, is
+                ///< at or below the tolerance
     iteration_limit,  ///< it is not: allow more iterations, accept a larger tolerance or change the
                       ///< solver
     stalled,          ///< it is not, and more iterations of this solver would not help

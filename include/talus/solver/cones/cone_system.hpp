@@ -77,8 +77,8 @@ class ConeSystem {
             r[c] = scaled.template segment<Dim>(first(c)) * scale_[c];
     }
 
-    /// The residual of ResidualMeasure at r, with u = W r + q. Of the whole alone if the measure was
-    /// given W alone.
+    /// The residual of ResidualMeasure at r, with u = W r + q. Of the whole alone if the measure
+    /// was given W alone.
     double residual(const Vec& r, const Vec& u) const;
 
     /// What one factorisation and its solves cost, in visits of a contact by a sweep over the
