@@ -210,7 +210,8 @@ class Automatic {
         accelerated_.params = {
             .max_iterations = last_passes_,
             .tolerance = params.tolerance,
-            .acceleration = momentum ? Acceleration::nesterov : Acceleration::anderson};
+            .acceleration = momentum ? Acceleration::nesterov : Acceleration::anderson,
+            .patience = 0};
         const bool over = sweep_with(momentum ? "nesterov" : "anderson", accelerated_, task, 2);
         const int done = accelerated_.report().iterations;
         speed_[momentum] = done > 0 ? std::log(before / report_.residual) / done : 0.0;

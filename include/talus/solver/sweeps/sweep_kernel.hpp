@@ -65,6 +65,16 @@ class SweepKernel {
         return square / measure_.effective_mass(i);
     }
 
+    /// Goes a part of the way to what solves contact i.
+    template <class W>
+    void visit_in_part(const SweepTask<Dim, Law, W>& task, std::size_t i, double part) const {
+        const Vector<Dim> before = task.r[i];
+        visit(task, i);
+        const Vector<Dim> back = (part - 1.0) * (task.r[i] - before);
+        task.r[i] += back;
+        task.w.add(i, back);
+    }
+
     /// The residual at the impulses that `w` follows. Costs about half a sweep.
     template <class W>
     Residual evaluate(const SweepTask<Dim, Law, W>& task) {
