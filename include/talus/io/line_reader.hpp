@@ -64,7 +64,7 @@ inline std::string shown(std::string_view word, std::size_t longest = 80) {
 /// passed over, others are refused.
 class LineReader {
   public:
-    LineReader(std::istream& text, std::string file)
+    LineReader(std::istream& text, const std::string& file)
         : text_(text), file_(detail::shown(file, 4096)) {}
 
     /// Goes to the next line, which must exist; `what` says what it should hold.

@@ -70,6 +70,7 @@ class ContactScales {
     void see_violation(std::size_t i, double square, double free) {
         Island& island = island_[label_[i]];
         island.violated = std::max(island.violated, std::sqrt(square));
+        island.fastest = std::max(island.fastest, std::sqrt(free));
         fastest_ = std::max(fastest_, std::sqrt(free));
     }
 
@@ -88,7 +89,7 @@ class ContactScales {
     /// Fills `contact`, `worst_contact` and `velocity`.
     void judge(Residual& result) const {
         constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
-        constexpr double nothing = 1e-12;
+        constexpr double nothing = 1e-12, share_of_speed = 1e-3;
         for (const Island& island : island_) {
             const double error = std::sqrt(island.error);
             result.velocity = std::max(result.velocity, error);
@@ -96,7 +97,8 @@ class ContactScales {
             if (!(counted > 0.0)) continue;
             // Loads that are nothing beside the impulses: a self-stress is its own scale.
             const double largest = std::sqrt(island.largest);
-            const double scale = island.violated > nothing * largest ? island.violated : largest;
+            const double v = std::max(island.violated, share_of_speed * island.fastest);
+            const double scale = v > nothing * largest ? v : largest;
             const double zeta = scale > 0.0 ? counted / scale : 1.0;
             if (!(zeta > result.contact)) continue;
             result.contact = zeta;
@@ -106,7 +108,9 @@ class ContactScales {
 
   private:
     struct Island {
-        double violated = 0.0;  ///< V [m/s]
+        double violated =
+            0.0;  ///< of the velocities of violation without impulses, the largest [m/s]
+        double fastest = 0.0;   ///< free velocity [m/s]
         double error = 0.0;     ///< square of the largest velocity of violation [m^2/s^2]
         double largest = 0.0;   ///< of the squares of r_c / rho_c [m^2/s^2]
         std::size_t worst = 0;  ///< contact
@@ -139,11 +143,13 @@ class ContactScales {
 /// the root of the ratio of masses. |r_c - f_c| / rho_c is the velocity by which contact c violates
 /// its law. V_c is the largest such velocity that there would be without any impulse, among the
 /// contacts of its island: those that chains of free bodies connect with it. For bodies at rest
-/// under gravity V is h g; what happens elsewhere, however fast, hides nothing. (Where V is less
-/// than 1e-12 of the largest r_c / rho_c, as in a wedge jammed without loads, that is V.) What the
-/// rounding of the largest velocity r_c / rho_c of the island, and of the largest of u_free
-/// anywhere, explains is not counted as an error. A tenth of it is asked for, since the worst of
-/// many contacts is some way above their mean: in piles at rest zeta is some 400 eta.
+/// under gravity V is h g, and never less than a thousandth of the largest u_free of the island, so
+/// that contacts which separate by themselves are not judged by nothing; what happens elsewhere,
+/// however fast, hides nothing. (Where V is less than 1e-12 of the largest r_c / rho_c, as in a
+/// wedge jammed without loads, that is V.) What the rounding of the largest velocity r_c / rho_c of
+/// the island, and of the largest of u_free anywhere, explains is not counted as an error. A tenth
+/// of it is asked for, since the worst of many contacts is some way above their mean: in piles at
+/// rest zeta is some 400 eta.
 ///
 /// What it means for motion. A contact's overlap grows by no more than 10 tolerance V h in a step
 /// for want of accuracy: at rest, where V = g h, by 1e-3 g h^2 at a tolerance of 1e-4.
