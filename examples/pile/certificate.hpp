@@ -35,7 +35,7 @@ inline std::string text_of(const Figures& f) {
     line("  residual             worst %.2e%s", f.residual.value, place_of(f.residual).c_str());
     line("  law violated by      %.1e m/s at most%s", f.velocity_error.value,
          place_of(f.velocity_error).c_str());
-    line("                       overlaps grew by at most %.1e m for it, in all", f.drift);
+    line("                       %.1e m in all, about the most that overlaps grew for it", f.drift);
     line("  overlap              mean %.3f %% of the mean radius at the end",
          100 * f.mean_penetration() / f.mean_radius);
     line("                       deepest %.2f %% of the smaller radius%s", 100 * f.overlap.value,

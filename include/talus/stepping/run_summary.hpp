@@ -29,8 +29,8 @@ struct RunSummary {
     Worst residual;           ///< of SolveReport [-]
     Worst contact_error;      ///< of SolveReport: at the worst contact, in its own scale [-]
     Worst velocity_error;     ///< largest velocity by which a contact violated its law [m/s]
-    /// By how much any overlap may have grown for want of accuracy, at most: the sum over all steps
-    /// of h times the worst velocity error [m].
+    /// The sum over all steps of h times the worst velocity error [m]: times sqrt(1 + mu^2), no
+    /// overlap has grown by more for want of accuracy.
     double drift = 0.0;
     /// Deepest overlap as a fraction of the bounding radius of the smaller body [-].
     Worst overlap;
@@ -86,7 +86,7 @@ inline std::string to_string(const RunSummary& run) {
         text += "; worst residual " + detail::text_of(run.residual.value) + ", worst contact " +
                 at(run.contact_error);
     if (run.drift > 0.0)
-        text += "; overlaps grew by at most " + detail::text_of(run.drift) + " m for it";
+        text += "; errors of velocity add up to " + detail::text_of(run.drift) + " m";
     if (run.overlap.value > 0.0)
         text += "; deepest overlap, of the smaller radius, " + at(run.overlap);
     return text;

@@ -12,9 +12,8 @@
 
 namespace talus {
 
-/// What users ask a step about bodies and contacts. Bodies may be named in any order; a body that
-/// is in no contact, or is none, has no contacts. O(contacts) each; forces are impulses divided by
-/// h.
+// What users ask a step about bodies and contacts. Bodies may be named in any order; a body that is
+// in no contact, or is none, has no contacts. O(contacts) each; forces are impulses divided by h.
 
 /// Indices of the contacts between two bodies, in the order of the step's contacts.
 template <int Dim, class Law>
