@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(automatic_solves_the_problems_of_other_codes) {
     for_each_problem([](const std::filesystem::path& path) {
         // The one problem that nobody has solved to tight tolerance (bench/NOTEBOOK.md).
         const bool open = path.stem() == "SpherePile-1000";
-        const double tolerance = open ? 1e-4 : 1e-12;
+        const double tolerance = open ? 1e-3 : 1e-12;  // its worst contact to a hundredth
         const int sweeps = open ? 2000 : talus::AutomaticParams{}.max_sweeps;
         const auto report = talus::problem_dimension(path) == 2
                                 ? solved<2>(path, tolerance, sweeps)

@@ -33,7 +33,8 @@ struct Forms {
         if (bodies > 3) problem.inverse_mass.angular[1].setZero();  // a particle
         for (std::size_t c = 0; c < problem.contact_count(); c += 3) problem.laws[c].mu = 0.0;
         const talus::DelassusSparse<Dim> blocks(problem.jacobian, problem.inverse_mass);
-        measure.prepare(blocks);
+        measure.template prepare<talus::DelassusSparse<Dim>, Law>(blocks, problem.free_velocity,
+                                                                  problem.laws);
         std::vector<talus::FrictionCone<Dim>> cones;
         for (const Law& law : problem.laws) cones.push_back(law.friction_cone());
         contact_space.assign(blocks, problem.free_velocity, cones, measure);

@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_SUITE(enumeration)
 
 BOOST_AUTO_TEST_CASE(is_robust_on_tiny_problems_of_the_gallery_in_the_plane) {
     auto promises = SolverPromises::robust();
-    promises.stiff = 1e-7;
+    promises.stiff = 1e-6;
     const int rounds = repetitions(6, 2);
     const auto problems = tiny_problems<2>(rounds);
     BOOST_TEST(problems.size() > 9u * static_cast<unsigned>(rounds));

@@ -41,7 +41,8 @@ auto automatic() {
 BOOST_AUTO_TEST_SUITE(gallery_of_factors)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(interior_point_is_true, D, dimensions) {
-    test_on_gallery(of_bodies<D::value>(interior_point<D::value>(), {.well_posed = 1e-7}, most));
+    // A contact on its cone's border that does not slide is right to the root of complementarity.
+    test_on_gallery(of_bodies<D::value>(interior_point<D::value>(), {.well_posed = 1e-6}, most));
     test_on_gallery(of_blocks<D::value>(interior_point<D::value>(), {}, most));
     test_on_gallery(of_matrices<D::value>(interior_point<D::value>(), {}, most));
 }

@@ -171,9 +171,12 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_limit_that_is_too_low_is_reported, D, dimensions
 BOOST_AUTO_TEST_CASE_TEMPLATE(gallery, D, dimensions) {
     // In space, bodies with slipping contacts may stop at 1e-5: incomplete factors of body space.
     const double of_bodies_promised = D::value == 2 ? 1e-6 : 0.0;
+    // And a light body on one of a million times its mass is right to a few 1e-5 of its own speed.
+    const double of_blocks_promised = D::value == 2 ? 1e-6 : 3e-5;
     test_on_gallery(
         of_bodies<D::value>(inexact<D::value>(), {.well_posed = of_bodies_promised}, most));
-    test_on_gallery(of_blocks<D::value>(inexact<D::value>(), {.well_posed = 1e-6}, most));
+    test_on_gallery(
+        of_blocks<D::value>(inexact<D::value>(), {.well_posed = of_blocks_promised}, most));
     test_on_gallery(of_matrices<D::value>(inexact<D::value>(), {}, most));
 }
 

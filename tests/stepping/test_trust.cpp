@@ -228,24 +228,30 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(light_balls_under_heavy_ones_carry_them_or_miss, D
         for (const double tolerance : {1e-4, 1e-8, 1e-12}) {
             const auto [swept, floor] = carried(
                 talus::GaussSeidel<Dim, Law>({.max_sweeps = 1000, .tolerance = tolerance}), r);
-            if (swept) BOOST_TEST(std::abs(floor - 1.0) <= 20.0 * tolerance);
+            const double rounding = 1e-15 * std::pow(r, -Dim);  // of the heavy one's velocity
+            if (swept) BOOST_TEST(std::abs(floor - 1.0) <= 20.0 * tolerance + rounding);
             const auto [solved, load] =
                 carried(talus::Automatic<Dim, Law>({.tolerance = tolerance}), r);
             // Solved up to a ratio of masses of a million, and never wrong in silence.
             if (std::pow(r, -Dim) < 1.1e6) BOOST_TEST(solved);
-            if (solved) BOOST_TEST(std::abs(load - 1.0) <= 20.0 * tolerance);
+            if (solved) BOOST_TEST(std::abs(load - 1.0) <= 20.0 * tolerance + rounding);
         }
 }
 
 BOOST_AUTO_TEST_CASE(a_tower_of_fifty_squares_stands_with_all_defaults) {
     auto sim = boxes_on_a_floor<2>(50, 0.005);
+    const auto turned = [&] {
+        double most = 0.0;
+        for (const auto& rotation : sim.system().bodies.rotation)
+            most = std::max(most, std::abs(rotation.angle()));
+        return most;
+    };
     const auto run = sim.run(0.5);
     BOOST_TEST(run.certified(), to_string(run));
-    double turned = 0.0;
-    for (const auto& rotation : sim.system().bodies.rotation)
-        turned = std::max(turned, std::abs(rotation.angle()));
+    BOOST_TEST(turned() < 0.01);
     // Where a contact may violate its law by a hundredth, not a thousandth, it falls within 2 s.
-    BOOST_TEST(turned < 0.01);
+    BOOST_TEST(sim.run(1.0).missed < 10);
+    BOOST_TEST(turned() < 0.01);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_first_pile_misses_no_tolerance, D, dimensions) {

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -289,6 +290,7 @@ class DelassusGlobal {
     void start(std::span<const Vector<Dim>> r) { w_.start(r); }
     Vector<Dim> velocity(std::size_t i) const { return w_.velocity(i); }
     void add(std::size_t i, const Vector<Dim>& dr) { w_.add(i, dr); }
+    void islands(std::span<std::uint32_t> label) const { w_.islands(label); }
 
     const DelassusSparse<Dim>& assembled() const { return w_; }
     DelassusSparse<Dim>& assembled() { return w_; }

@@ -25,16 +25,20 @@ struct Residual {
     double whole = 0.0;  ///< eta of ResidualMeasure: of all contacts together [-]
     /// zeta of ResidualMeasure: the worst contact, in the scale of its own island [-].
     double contact = 0.0;
+    /// What the rounding of velocities may make of `contact`, of which as much is not counted [-].
+    double rounding = 0.0;
     std::size_t worst_contact = 0;  ///< where that is
     /// The largest velocity by which a contact's law is violated [m/s]: times sqrt(1 + mu^2), no
     /// overlap grows faster for the residual's sake.
     double velocity = 0.0;
     double worst_share = 0.0;  ///< largest error over the root mean square scale of a contact [-]
 
+    /// Of `contact` in `relative`.
+    static constexpr double share_of_contact = 0.1;
+
     bool finite() const { return std::isfinite(relative); }
     /// Sets `relative` from the other two. What is not finite in the whole stays so.
     void combine() {
-        constexpr double share_of_contact = 0.1;
         const bool contact_counts = std::isfinite(whole) && share_of_contact * contact > whole;
         relative = contact_counts ? share_of_contact * contact : whole;
     }
@@ -74,6 +78,9 @@ class ContactScales {
         fastest_ = std::max(fastest_, std::sqrt(free));
     }
 
+    /// V of contact i, as far as it does not depend on impulses [m/s].
+    double velocity(std::size_t i) const { return free_scale(island_[label_[i]]); }
+
     /// Before the contacts are judged.
     void begin() {
         for (Island& island : island_) island.largest = island.error = 0.0;
@@ -86,19 +93,20 @@ class ContactScales {
         island.error = error;
         island.worst = i;
     }
-    /// Fills `contact`, `worst_contact` and `velocity`.
+    /// Fills `contact`, `rounding`, `worst_contact` and `velocity`.
     void judge(Residual& result) const {
         constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
-        constexpr double nothing = 1e-12, share_of_speed = 1e-3;
         for (const Island& island : island_) {
             const double error = std::sqrt(island.error);
             result.velocity = std::max(result.velocity, error);
-            const double counted = error - rounding * (std::sqrt(island.largest) + fastest_);
-            if (!(counted > 0.0)) continue;
-            // Loads that are nothing beside the impulses: a self-stress is its own scale.
             const double largest = std::sqrt(island.largest);
-            const double v = std::max(island.violated, share_of_speed * island.fastest);
+            const double v = free_scale(island);
+            // Loads that are nothing beside the impulses: a self-stress is its own scale.
             const double scale = v > nothing * largest ? v : largest;
+            const double rounded = rounding * (largest + fastest_);
+            if (scale > 0.0) result.rounding = std::max(result.rounding, rounded / scale);
+            const double counted = error - rounded;
+            if (!(counted > 0.0)) continue;
             const double zeta = scale > 0.0 ? counted / scale : 1.0;
             if (!(zeta > result.contact)) continue;
             result.contact = zeta;
@@ -108,13 +116,18 @@ class ContactScales {
 
   private:
     struct Island {
-        double violated =
-            0.0;  ///< of the velocities of violation without impulses, the largest [m/s]
+        double violated = 0.0;  ///< largest velocity of violation without impulses [m/s]
         double fastest = 0.0;   ///< free velocity [m/s]
         double error = 0.0;     ///< square of the largest velocity of violation [m^2/s^2]
         double largest = 0.0;   ///< of the squares of r_c / rho_c [m^2/s^2]
         std::size_t worst = 0;  ///< contact
     };
+    static constexpr double nothing = 1e-12, share_of_speed = 1e-3;
+    double free_scale(const Island& island) const {
+        const double v = std::max(island.violated, share_of_speed * island.fastest);
+        return v > nothing * fastest_ ? v : share_of_speed * fastest_;
+    }
+
     static constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> label_;  ///< island of each contact
     std::vector<std::uint32_t> index_;
@@ -145,11 +158,12 @@ class ContactScales {
 /// contacts of its island: those that chains of free bodies connect with it. For bodies at rest
 /// under gravity V is h g, and never less than a thousandth of the largest u_free of the island, so
 /// that contacts which separate by themselves are not judged by nothing; what happens elsewhere,
-/// however fast, hides nothing. (Where V is less than 1e-12 of the largest r_c / rho_c, as in a
-/// wedge jammed without loads, that is V.) What the rounding of the largest velocity r_c / rho_c of
-/// the island, and of the largest of u_free anywhere, explains is not counted as an error. A tenth
-/// of it is asked for, since the worst of many contacts is some way above their mean: in piles at
-/// rest zeta is some 400 eta.
+/// however fast, hides nothing. (An island in which nothing moves, to 1e-12 of the largest u_free
+/// anywhere, has no scale of its own: V is a thousandth of that. Where V is less than 1e-12 of the
+/// largest r_c / rho_c, as in a wedge jammed without loads, that is V.) What the rounding of the
+/// largest velocity r_c / rho_c of the island, and of the largest of u_free anywhere, explains is
+/// not counted as an error. A tenth of it is asked for, since the worst of many contacts is some
+/// way above their mean: in piles at rest zeta is some 400 eta.
 ///
 /// What it means for motion. A contact's overlap grows by no more than 10 tolerance V h in a step
 /// for want of accuracy: at rest, where V = g h, by 1e-3 g h^2 at a tolerance of 1e-4.

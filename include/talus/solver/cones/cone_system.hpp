@@ -81,6 +81,10 @@ class ConeSystem {
     /// was given W alone.
     double residual(const Vec& r, const Vec& u) const;
 
+    /// What a component of u may be off at a residual of 1, at the contact where that is least
+    /// [sqrt(J)].
+    double finest_scale() const { return finest_scale_; }
+
     /// What one factorisation and its solves cost, in visits of a contact by a sweep over the
     /// contacts of two bodies (some 30 ns): an estimate from the factor's structure, the same on
     /// any machine.
@@ -110,6 +114,7 @@ class ConeSystem {
     std::vector<FrictionCone<Dim>> cones_;
     std::vector<double> scale_;      ///< sqrt(rho_c)
     mutable ContactScales islands_;  ///< of the measure; written by every look at it
+    double finest_scale_ = 0.0;
     Vec q_;
     bool in_body_space_ = false;
     bool analyzed_ = false;
@@ -157,6 +162,11 @@ void ConeSystem<Dim>::set_common(std::span<const Vector<Dim>> free_velocity,
         scale_[c] = std::sqrt(measure.effective_mass(c));
         q_.template segment<Dim>(first(c)) = scale_[c] * free_velocity[c];
     }
+    finest_scale_ = std::numeric_limits<double>::infinity();
+    if (islands_.contact_count() == contact_count())
+        for (std::size_t c = 0; c < cones_.size(); ++c)
+            finest_scale_ = std::min(finest_scale_,
+                                     scale_[c] * islands_.velocity(c) / Residual::share_of_contact);
     analyzed_ = false;
 }
 

@@ -187,8 +187,9 @@ double BasicInteriorPoint<Dim, Law, Directions>::allowed_error(const Vec& r) con
     // On the path u_n = gap / r_n. Less than the tolerance asks for is of no use.
     constexpr double share = 0.1;
     const double path = gap_ * static_cast<double>(contacts_.size()) / r.norm();
-    const double enough =
-        params.tolerance * std::max(r.norm(), this->system_.free_velocity().norm());
+    const auto& system = this->system_;
+    const double whole = std::max(r.norm(), system.free_velocity().norm());
+    const double enough = params.tolerance * std::min(whole, system.finest_scale());
     return share * std::max(enough, std::min(right_.norm(), path));
 }
 
