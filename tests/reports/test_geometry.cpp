@@ -111,10 +111,10 @@ BOOST_AUTO_TEST_CASE(blocks_of_400_that_overlap_at_90000) {
                 points.emplace_back(static_cast<float>(x[i]), static_cast<float>(y[i]), z);
         return points;
     };
-    const auto a = of({90945.08, 91077.46, 91454.92, 91322.54},
-                      {54122.54, 53745.082, 53877.46, 54254.918});
-    const auto b = of({90919.64, 91162.62, 91480.36, 91237.38},
-                      {54037.383, 53719.637, 53962.617, 54280.363});
+    const auto a =
+        of({90945.08, 91077.46, 91454.92, 91322.54}, {54122.54, 53745.082, 53877.46, 54254.918});
+    const auto b =
+        of({90919.64, 91162.62, 91480.36, 91237.38}, {54037.383, 53719.637, 53962.617, 54280.363});
     const talus::ConvexPolytope<3> one(a), other(b);
     // The corners are rounded to 1/256, and the faces of one need not be parallel to better.
     check_all<3>(one, Pose3{}, other, Pose3{}, 0.0, 1.0 / 256);
@@ -130,8 +130,8 @@ BOOST_AUTO_TEST_CASE(a_point_and_the_hull_of_seven_nearly_coplanar_groups) {
     const V3 point(44.2919, 39.7508, 18.8208);
     const double exact = Minkowski<3>({point}, points).signed_distance();
     const talus::HullOfPoints<3> hull(points, {.rounding = 0.0});
-    const auto found = contacts<3>(talus::Ball<3>(1e-3), Pose3{point, {}}, hull.polytope, Pose3{},
-                                   10.0);
+    const auto found =
+        contacts<3>(talus::Ball<3>(1e-3), Pose3{point, {}}, hull.polytope, Pose3{}, 10.0);
     BOOST_REQUIRE_EQUAL(found.size(), 1u);
     BOOST_CHECK_SMALL(found[0].gap + 1e-3 - exact, 50 * rounding);
 }
@@ -159,20 +159,18 @@ BOOST_AUTO_TEST_CASE(a_long_bar_with_its_end_in_a_turned_cube) {
 
 // flexible-collision-library/fcl#493, flexible-collision-library/fcl#495
 BOOST_AUTO_TEST_CASE(turned_cubes_that_kiss_touch_over_the_whole_face) {
-    const auto half = placed({0.96193976625564348026, 0.15401279915737359216,
-                              0.22572537250328919556, 2.0770063995786869349,
-                              -0.19134171618254486313, 0.96936494951283913579,
-                              0.15401279915737359216, 0.48468247475641951239,
-                              -0.19509032201612822033, -0.19134171618254486313,
-                              0.96193976625564348026, 1.1543291419087275962});
+    const auto half =
+        placed({0.96193976625564348026, 0.15401279915737359216, 0.22572537250328919556,
+                2.0770063995786869349, -0.19134171618254486313, 0.96936494951283913579,
+                0.15401279915737359216, 0.48468247475641951239, -0.19509032201612822033,
+                -0.19134171618254486313, 0.96193976625564348026, 1.1543291419087275962});
     Pose3 other = half;
     other.position = {2.0, 0.0, 1.25};
-    const auto quarter = placed({0.94096063217417758029, 0.29296840037289501035,
-                                 0.16959541586174811667, 0.073242100093223821977,
-                                 -0.23569836841299879326, 0.92661523595848427348,
-                                 -0.29296840037289506586, 0.2316538089896212349,
-                                 -0.2429801799032638987, 0.23569836841299884878,
-                                 0.94096063217417758029, 1.3089245921032497399});
+    const auto quarter =
+        placed({0.94096063217417758029, 0.29296840037289501035, 0.16959541586174811667,
+                0.073242100093223821977, -0.23569836841299879326, 0.92661523595848427348,
+                -0.29296840037289506586, 0.2316538089896212349, -0.2429801799032638987,
+                0.23569836841299884878, 0.94096063217417758029, 1.3089245921032497399});
     Pose3 below = quarter;
     below.position = {0.0, 0.0, 1.25};
     const auto check = [](double side, const Pose3& at_a, const Pose3& at_b) {
@@ -215,8 +213,8 @@ BOOST_AUTO_TEST_CASE(unit_cubes_four_apart_along_any_axis_are_three_apart) {
 
 // flexible-collision-library/fcl#127, flexible-collision-library/fcl#275
 BOOST_AUTO_TEST_CASE(nearest_points_of_a_ball_with_a_box_and_with_a_ball) {
-    const auto box = contacts<3>(talus::Ball<3>(1.0), Pose3{}, block(10, 2, 10),
-                                 Pose3{V3(0, 5, 3), {}}, 5.0);
+    const auto box =
+        contacts<3>(talus::Ball<3>(1.0), Pose3{}, block(10, 2, 10), Pose3{V3(0, 5, 3), {}}, 5.0);
     BOOST_REQUIRE_EQUAL(box.size(), 1u);
     BOOST_TEST(box[0].gap == 3.0);
     BOOST_TEST((box[0].point - V3(0, 2.5, 0)).norm() == 0.0);
@@ -230,9 +228,10 @@ BOOST_AUTO_TEST_CASE(nearest_points_of_a_ball_with_a_box_and_with_a_ball) {
 
 // flexible-collision-library/fcl#408
 BOOST_AUTO_TEST_CASE(a_ball_that_kisses_a_cube_over_its_edge_line) {
-    const auto found = contacts<3>(
-        talus::Ball<3>(0.06), Pose3{V3(1.7855056639081962376e-10, 0.04, 0.33000000000000012657), {}},
-        cube(0.1), Pose3{V3(0.05, 0.15, 0.35), {}}, 1e-12);
+    const auto found =
+        contacts<3>(talus::Ball<3>(0.06),
+                    Pose3{V3(1.7855056639081962376e-10, 0.04, 0.33000000000000012657), {}},
+                    cube(0.1), Pose3{V3(0.05, 0.15, 0.35), {}}, 1e-12);
     BOOST_REQUIRE_EQUAL(found.size(), 1u);
     BOOST_CHECK_SMALL(found[0].gap, rounding);
     BOOST_CHECK_SMALL((found[0].normal + V3::Unit(1)).norm(), 1e-8);
@@ -243,9 +242,8 @@ BOOST_AUTO_TEST_CASE(a_small_cube_in_the_corner_of_a_big_one_leaves_through_a_fa
     const auto small = cube(0.2), big = cube(1.0);
     const talus::ConvexPolytope<3> hull(corners<3>(big, Pose3{}));
     const Pose3 at{V3::Constant(0.4), {}};
-    for (const double gap :
-         {least_gap(contacts<3>(small, at, big, Pose3{}, 0.0)),
-          least_gap(contacts<3>(small, at, hull, Pose3{}, 0.0))})
+    for (const double gap : {least_gap(contacts<3>(small, at, big, Pose3{}, 0.0)),
+                             least_gap(contacts<3>(small, at, hull, Pose3{}, 0.0))})
         BOOST_CHECK_SMALL(gap + 0.2, rounding);
 }
 
@@ -327,8 +325,8 @@ BOOST_AUTO_TEST_CASE(a_ball_whose_centre_is_a_corner_or_on_a_face) {
         BOOST_CHECK_SMALL(found[0].gap + 1.0, rounding);
         BOOST_TEST(found[0].normal.dot(at) > 0.0);
     }
-    const auto face = contacts<3>(talus::Ball<3>(0.5), Pose3{V3(0.2, 0.1, 1), {}}, cube(2),
-                                  Pose3{}, 0.0);
+    const auto face =
+        contacts<3>(talus::Ball<3>(0.5), Pose3{V3(0.2, 0.1, 1), {}}, cube(2), Pose3{}, 0.0);
     BOOST_REQUIRE_EQUAL(face.size(), 1u);
     BOOST_CHECK_SMALL(face[0].gap + 0.5, rounding);
     BOOST_CHECK_SMALL((face[0].normal - V3::Unit(2)).norm(), rounding);
@@ -465,8 +463,8 @@ BOOST_AUTO_TEST_CASE(a_box_on_the_floor_touches_with_its_lower_corners) {
 // erincatto/box2d#672
 BOOST_AUTO_TEST_CASE(overlapping_discs_touch_in_the_middle_of_the_overlap) {
     for (const double x : {3.5, 3.999999, 4.0}) {
-        const auto found =
-            contacts<2>(talus::Ball<2>(1.0), Pose2{}, talus::Ball<2>(3.0), Pose2{V2(x, 0), {}}, 0.0);
+        const auto found = contacts<2>(talus::Ball<2>(1.0), Pose2{}, talus::Ball<2>(3.0),
+                                       Pose2{V2(x, 0), {}}, 0.0);
         BOOST_REQUIRE_EQUAL(found.size(), 1u);
         BOOST_CHECK_SMALL(found[0].gap - (x - 4.0), rounding);
         BOOST_CHECK_SMALL((found[0].point - V2(0.5 * (x - 2.0), 0)).norm(), rounding);

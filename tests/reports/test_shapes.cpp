@@ -41,14 +41,12 @@ struct Polygon {
         const long double first[] = {p[0][0], p[0][1]};
         for (std::size_t i = 1; i + 1 < p.size(); ++i) {
             const long double ax = p[i][0] - first[0], ay = p[i][1] - first[1];
-            const long double bx = p[i + 1][0] - first[0],
-                              by = p[i + 1][1] - first[1];
+            const long double bx = p[i + 1][0] - first[0], by = p[i + 1][1] - first[1];
             const long double twice = ax * by - ay * bx;
             area += twice / 2;
             x += twice * (ax + bx) / 6;
             y += twice * (ay + by) / 6;
-            about_first +=
-                twice * (ax * ax + ay * ay + bx * bx + by * by + ax * bx + ay * by) / 12;
+            about_first += twice * (ax * ax + ay * ay + bx * bx + by * by + ax * bx + ay * by) / 12;
         }
         x /= area;
         y /= area;
@@ -159,10 +157,9 @@ BOOST_AUTO_TEST_CASE(points_on_a_line_are_refused) {
     BOOST_CHECK_THROW(ConvexPolytope<2>({{0, 0}, {10, 10}, {5, 5}, {3, 3}}), input_error);
     const std::vector<V2> line{{0, 0}, {10, 10}, {5, 5}, {3, 3}};
     BOOST_CHECK_THROW(HullOfPoints<2>{line}, input_error);
-    BOOST_CHECK_THROW(ConvexPolytope<3>({{2.277, -7.9, 16.318},
-                                         {-0.57, -8.1, 16.607},
-                                         {-0.57, -8.1, 16.607}}),
-                      input_error);
+    BOOST_CHECK_THROW(
+        ConvexPolytope<3>({{2.277, -7.9, 16.318}, {-0.57, -8.1, 16.607}, {-0.57, -8.1, 16.607}}),
+        input_error);
 }
 
 // bepu/bepuphysics2#316, mrdoob/three.js#13014
@@ -177,9 +174,9 @@ BOOST_AUTO_TEST_CASE(points_in_a_plane_are_refused_in_space) {
 
 // dimforge/ncollide#372
 BOOST_AUTO_TEST_CASE(the_hull_of_a_hull_is_the_same_hull) {
-    const std::vector<V3> points{{1, 0, 0},  {-2, 1, 1}, {2, 1, 1},  {2, 0, 2},
-                                 {-2, 0, 2}, {1, 1, 0},  {2, 0, 1},  {-2, 0, 1},
-                                 {-1, 0, 0}, {-2, 1, 2}, {2, 1, 2},  {-1, 1, 0}};
+    const std::vector<V3> points{{1, 0, 0},  {-2, 1, 1}, {2, 1, 1}, {2, 0, 2},
+                                 {-2, 0, 2}, {1, 1, 0},  {2, 0, 1}, {-2, 0, 1},
+                                 {-1, 0, 0}, {-2, 1, 2}, {2, 1, 2}, {-1, 1, 0}};
     const HullOfPoints<3> first(points);
     BOOST_TEST(first.kept.size() == 12u);
     check_convex(first.polytope, 1e-15);
@@ -202,10 +199,9 @@ BOOST_AUTO_TEST_CASE(the_sum_of_a_cylinder_and_a_sphere_is_convex) {
                 for (int l = 0; l <= segments / 2; ++l) {
                     const double a = 2 * pi * i / segments, b = 2 * pi * k / segments,
                                  c = pi * l / (segments / 2);
-                    points.push_back(
-                        V3(3.5 * std::cos(a), 3.5 * std::sin(a), z) +
-                        2.0 * V3(std::cos(b) * std::sin(c), std::sin(b) * std::sin(c),
-                                 std::cos(c)));
+                    points.push_back(V3(3.5 * std::cos(a), 3.5 * std::sin(a), z) +
+                                     2.0 * V3(std::cos(b) * std::sin(c), std::sin(b) * std::sin(c),
+                                              std::cos(c)));
                 }
     const HullOfPoints<3> hull(points);
     check_convex(hull.polytope, 1e-13);

@@ -150,8 +150,8 @@ BOOST_AUTO_TEST_CASE(a_tetrahedron_and_a_cube_of_a_file_keep_their_contacts) {
 BOOST_AUTO_TEST_CASE(a_peg_across_a_small_cube_does_not_jitter) {
     auto sim = simulation<3>(law<3>(0.6), 2e-3, -g * up<3>(), false);
     sim.system().add_obstacle(Box<3>(V3::Constant(0.025)), talus::Pose<3>{{0, 0, 0.025}, {}});
-    const BodyIndex peg = sim.system().add(Box<3>(V3(0.048, 0.01, 0.01)), 1000.0,
-                                           {{0, 0, 0.06}, {}});
+    const BodyIndex peg =
+        sim.system().add(Box<3>(V3(0.048, 0.01, 0.01)), 1000.0, {{0, 0, 0.06}, {}});
     BOOST_CHECK_SMALL(creep(sim, peg, 2.0), rest);
     BOOST_TEST(sim.data().contact_count() == 4u);
 }
@@ -160,7 +160,8 @@ BOOST_AUTO_TEST_CASE(a_peg_across_a_small_cube_does_not_jitter) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_ball_at_rest_on_a_level_box_does_not_roll, D, dimensions) {
     constexpr int Dim = D::value;
     auto sim = simulation<Dim>(law<Dim>(0.3), 1.0 / 60, -g * up<Dim>(), false);
-    sim.system().add_obstacle(Box<Dim>(V<Dim>::Constant(5.0)), talus::Pose<Dim>{-5.0 * up<Dim>(), {}});
+    sim.system().add_obstacle(Box<Dim>(V<Dim>::Constant(5.0)),
+                              talus::Pose<Dim>{-5.0 * up<Dim>(), {}});
     const BodyIndex ball =
         sim.system().add(talus::Ball<Dim>(0.5), 1000.0, {in_plane<Dim>(0.123, 0.5), {}});
     BOOST_CHECK_SMALL(creep(sim, ball, 20.0), rest);
@@ -177,8 +178,8 @@ BOOST_AUTO_TEST_CASE(a_cube_with_balls_at_its_corners_rests_on_a_plate) {
     }
     auto sim = simulation<3>(law<3>(0.6), 1e-3, -g * up<3>(), false);
     sim.system().add_obstacle(Box<3>(V3(0.5, 0.5, 0.025)), talus::Pose<3>{{0, 0, -0.025}, {}});
-    const BodyIndex cube = sim.system().add(talus::Compound<3>(parts), 2679.1838,
-                                            {{0, 0, half + radius + 0.01}, {}});
+    const BodyIndex cube =
+        sim.system().add(talus::Compound<3>(parts), 2679.1838, {{0, 0, half + radius + 0.01}, {}});
     BOOST_TEST(sim.run(0.5).missed == 0);
     BOOST_CHECK_SMALL(speed(sim.system().bodies, cube), rest);
     const V3 place = sim.system().bodies.position[static_cast<std::size_t>(cube)];
