@@ -11,7 +11,10 @@
 
 namespace talus {
 
-/// Fills H for the contacts of a configuration: axes and lever arms. O(contacts).
+/// Fills H for the contacts of a configuration: axes and lever arms. Two free bodies share the
+/// point half-way between their surfaces, which keeps their angular momentum; against an obstacle,
+/// which has none to keep, arms end on the surfaces, so that no gap or overlap lengthens or
+/// shortens them. O(contacts).
 template <int Dim>
 void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodies,
                        ContactJacobian<Dim>& jacobian) {
@@ -21,8 +24,11 @@ void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodie
         jacobian.a[c] = a;
         jacobian.b[c] = b;
         jacobian.frame[c] = local_frame<Dim>(contacts.normal[c]);
-        jacobian.arm_a[c] = contacts.point[c] - bodies.position[static_cast<std::size_t>(a)];
-        jacobian.arm_b[c] = contacts.point[c] - bodies.position[static_cast<std::size_t>(b)];
+        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+        const double half = bodies.is_obstacle(i) || bodies.is_obstacle(j) ? 0.5 : 0.0;
+        const Vector<Dim> to_surface = half * contacts.gap[c] * contacts.normal[c];
+        jacobian.arm_a[c] = contacts.point[c] + to_surface - bodies.position[i];
+        jacobian.arm_b[c] = contacts.point[c] - to_surface - bodies.position[j];
     }
 }
 
