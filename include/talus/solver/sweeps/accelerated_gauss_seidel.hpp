@@ -104,7 +104,7 @@ class AcceleratedGaussSeidel {
         require_in("depth", params.depth, 1, 20);
         require_non_negative("patience", params.patience);
         report_.history.clear();
-        report_.history.reserve(64);
+        report_.history.reserve(256);
         kernel_.prepare(task);
         kept_.assign(r.begin(), r.end());
         own_y_.reserve(r.size());
