@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/collision/anticipated_contacts.hpp>
+#include <talus/assembly/anticipated_contacts.hpp>
 #include <talus/collision/concepts.hpp>
 #include <talus/collision/contact_set.hpp>
 #include <talus/collision/narrow_phase.hpp>

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <talus/collision/narrow_phase.hpp>
-#include <talus/core/cross.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/spatial/twist.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace talus {
@@ -30,10 +30,9 @@ struct MovingShape {
             p.rotation = (Rotation<Dim>::exp(steps * motion.angular) * pose.rotation).normalized();
         return p;
     }
-    /// Greatest height along d (world axes) with the shape placed there [m].
-    double height(const Vector<Dim>& d, const Pose<Dim>& placed) const {
-        return d.dot(placed.position +
-                     placed.rotation * shape.support(placed.rotation.transpose_times(d)));
+    /// The farthest point along d with the shape placed there; world axes.
+    Vector<Dim> foremost(const Vector<Dim>& d, const Pose<Dim>& placed) const {
+        return placed.point_world(shape.support(placed.rotation.transpose_times(d)));
     }
     /// Radius of a ball that holds the shape [m].
     double bound() const {
@@ -104,13 +103,13 @@ class Passage {
     };
 
     double separation(const Vector<Dim>& n, const Pose<Dim>& a, const Pose<Dim>& b) const {
-        return -a_.height(-n, a) - b_.height(n, b);
+        return n.dot(a_.foremost(-n, a) - b_.foremost(n, b));
     }
     double separation(const Vector<Dim>& n, double steps) const {
         return separation(n, a_.pose_after(steps), b_.pose_after(steps));
     }
     double width(const MovingShape<Dim>& m, const Vector<Dim>& n) const {
-        return m.height(n, m.pose) + m.height(-n, m.pose);
+        return n.dot(m.foremost(n, m.pose) - m.foremost(-n, m.pose));
     }
     Axis measured(const Vector<Dim>& n) const;
     double steps_until_lost(const Axis& axis, double middle) const;
@@ -124,6 +123,7 @@ class Passage {
     void advance(Axis& best);
     Axis search(const Vector<Dim>& nearest);
     ContactPoint<Dim> brought_back(const ContactPoint<Dim>& point, const Axis& axis) const;
+    ContactPoint<Dim> of_foremost_points(FeatureId feature, const Axis& axis) const;
 
     const MovingShape<Dim>&a_, &b_;
     std::array<Pose<Dim>, 2> one_ahead_, all_ahead_;
@@ -133,54 +133,6 @@ class Passage {
     bool turning_;
     std::vector<ContactPoint<Dim>>& near_;
 };
-
-/// Contacts of shapes that are apart, by what their motion will make of them (see Passage).
-template <int Dim>
-requires SpaceDimension<Dim>
-class AnticipatedContacts {
-  public:
-    /// Whether the foreseen motion would close the gap of some contact that is open, that is
-    /// larger than `tolerance` [m]: else the contacts are good as they are.
-    static bool concern(std::span<const ContactPoint<Dim>> points, double tolerance,
-                        const Pose<Dim>& pose_a, const Twist<Dim>& motion_a,
-                        const Pose<Dim>& pose_b, const Twist<Dim>& motion_b);
-
-    /// Puts the contacts that the motion leads to in the place of those of `points`, which are what
-    /// the narrow phase found for the same pair up to the gap `reach` [m]. Convex parts of which a
-    /// contact is closed keep all theirs, and so do half-spaces, which have one normal alone, and
-    /// shapes without a support mapping. The contacts put in are open: of gap > tolerance.
-    void replace(const MovingShape<Dim>& a, const MovingShape<Dim>& b,
-                 std::span<const OwnPair<Dim>> own, SupportRoutine<Dim> by_support,
-                 double tolerance, double reach, std::vector<ContactPoint<Dim>>& points);
-
-    /// Makes room for the contacts of one pair.
-    void reserve(std::size_t count) {
-        near_.reserve(count);
-        result_.reserve(count);
-    }
-
-  private:
-    static bool handled_whole(const ShapeView<Dim>& a, const ShapeView<Dim>& b,
-                              std::span<const OwnPair<Dim>> own);
-    static MovingShape<Dim> part(const MovingShape<Dim>& m, std::uint64_t child) {
-        if (m.shape.kind() != ShapeKind::compound) return m;
-        return {m.shape.child(static_cast<std::size_t>(child)), m.pose, m.motion};
-    }
-
-    std::vector<ContactPoint<Dim>> near_, result_;
-};
-
-/// The contacts of two bodies, with those that are open as their motion asks.
-template <int Dim, class A, class B>
-requires CanMeet<A, B, Dim>
-void anticipate(const A& a, const Pose<Dim>& pose_a, const Twist<Dim>& motion_a, const B& b,
-                const Pose<Dim>& pose_b, const Twist<Dim>& motion_b, double tolerance, double reach,
-                AnticipatedContacts<Dim>& anticipated, std::vector<ContactPoint<Dim>>& points) {
-    if (AnticipatedContacts<Dim>::concern(points, tolerance, pose_a, motion_a, pose_b, motion_b))
-        anticipated.replace({view_of<Dim>(a), pose_a, motion_a},
-                            {view_of<Dim>(b), pose_b, motion_b}, detail::own_pairs<Dim, A, B>,
-                            detail::support_routine<Dim, A, B>(), tolerance, reach, points);
-}
 
 #define TALUS_OF_PASSAGE(...) \
     template <int Dim>        \
@@ -287,9 +239,10 @@ TALUS_OF_PASSAGE(void)::try_at(double steps, const Vector<Dim>& shift, Axis& bes
 /// is lost the other separates, and so does what is between them; and across the motion it did so
 /// before and will do so afterwards.
 TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::across(const Axis& lost, const Axis& gained) const {
-    const double down = std::max(lost.now - lost.end, 0.0);
-    const double up =
-        std::max(separation(gained.normal, one_ahead_[0], one_ahead_[1]) - gained.now, 0.0);
+    const auto change = [&](const Axis& axis) {
+        return separation(axis.normal, one_ahead_[0], one_ahead_[1]) - axis.now;
+    };
+    const double down = std::max(-change(lost), 0.0), up = std::max(change(gained), 0.0);
     const Vector<Dim> n = up * lost.normal + down * gained.normal;
     if (!(n.norm() > 0.0)) return gained;
     Axis axis = measured(Vector<Dim>(n.normalized()));
@@ -343,14 +296,18 @@ TALUS_OF_PASSAGE(ContactPoint<Dim>)::brought_back(const ContactPoint<Dim>& point
     ContactPoint<Dim> result = point;
     result.point = point.point - 0.5 * (way_a + way_b);
     result.slide = way_a - way_b;
-    if (axis.across_motion) {
-        result.normal = axis.normal;
-        result.gap = axis.now;
-    } else {
-        result.gap -= axis.found * point.normal.dot(a_.motion.at(arm_a) - b_.motion.at(arm_b)) +
-                      point.normal.dot(axis.shift);
-    }
+    result.gap -= axis.found * point.normal.dot(a_.motion.at(arm_a) - b_.motion.at(arm_b)) +
+                  point.normal.dot(axis.shift);
     return result;
+}
+
+/// The one contact of an axis across the motion: where the bodies, as they stand, are foremost
+/// along it. Arms that end elsewhere would let a turn do what the plane asks of the body.
+TALUS_OF_PASSAGE(ContactPoint<Dim>)::of_foremost_points(FeatureId feature, const Axis& axis) const {
+    const Vector<Dim>& n = axis.normal;
+    const Vector<Dim> on_a = a_.foremost(-n, a_.pose), on_b = b_.foremost(n, b_.pose);
+    const Vector<Dim> apart = on_a - on_b;
+    return {0.5 * (on_a + on_b), n, axis.now, feature, n.dot(apart) * n - apart};
 }
 
 TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
@@ -363,9 +320,14 @@ TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
         return;
     }
     const double open = std::nextafter(tolerance_, std::numeric_limits<double>::infinity());
+    if (axis.across_motion) {
+        const auto named = std::ranges::min_element(near_, {}, &ContactPoint<Dim>::gap)->feature;
+        near_.assign(1, of_foremost_points(named, axis));
+    } else {
+        for (ContactPoint<Dim>& point : near_) point = brought_back(point, axis);
+    }
     double least = std::numeric_limits<double>::infinity();
     for (ContactPoint<Dim>& point : near_) {
-        point = brought_back(point, axis);
         point.gap = std::max(point.gap, open);
         least = std::min(least, point.gap);
     }
@@ -376,73 +338,7 @@ TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
 
 #undef TALUS_OF_PASSAGE
 
-template <int Dim>
-requires SpaceDimension<Dim>
-bool AnticipatedContacts<Dim>::concern(std::span<const ContactPoint<Dim>> points, double tolerance,
-                                       const Pose<Dim>& pose_a, const Twist<Dim>& motion_a,
-                                       const Pose<Dim>& pose_b, const Twist<Dim>& motion_b) {
-    return std::ranges::any_of(points, [&](const ContactPoint<Dim>& c) {
-        const Vector<Dim> change =
-            motion_a.at(c.point - pose_a.position) - motion_b.at(c.point - pose_b.position);
-        return c.gap > tolerance && c.gap + Foresight::steps * c.normal.dot(change) < 0.0;
-    });
-}
-
-/// Whether a routine of one's own serves two shapes of which one is a compound: its contacts then
-/// need not be those of children.
-template <int Dim>
-requires SpaceDimension<Dim>
-bool AnticipatedContacts<Dim>::handled_whole(const ShapeView<Dim>& a, const ShapeView<Dim>& b,
-                                             std::span<const OwnPair<Dim>> own) {
-    return (a.kind() == ShapeKind::compound || b.kind() == ShapeKind::compound) &&
-           std::ranges::any_of(own, [&](const OwnPair<Dim>& pair) {
-               return (pair.a == a.access && pair.b == b.access) ||
-                      (pair.a == b.access && pair.b == a.access);
-           });
-}
-
-template <int Dim>
-requires SpaceDimension<Dim>
-void AnticipatedContacts<Dim>::replace(const MovingShape<Dim>& a, const MovingShape<Dim>& b,
-                                       std::span<const OwnPair<Dim>> own,
-                                       SupportRoutine<Dim> by_support, double tolerance,
-                                       double reach, std::vector<ContactPoint<Dim>>& points) {
-    if (handled_whole(a.shape, b.shape, own)) return;
-    const bool compound =
-        a.shape.kind() == ShapeKind::compound || b.shape.kind() == ShapeKind::compound;
-    const auto children = [&](const ContactPoint<Dim>& c) {
-        return compound ? std::pair(c.feature.code >> 52, c.feature.code >> 20 & 0xfff)
-                        : std::pair<std::uint64_t, std::uint64_t>{};
-    };
-    result_.clear();
-    for (auto first = points.begin(); first != points.end();) {
-        const auto last = std::find_if(first, points.end(), [&](const ContactPoint<Dim>& c) {
-            return children(c) != children(*first);
-        });
-        const std::span<const ContactPoint<Dim>> present(first, last);
-        const auto [child_a, child_b] = children(*first);
-        const std::size_t kept = result_.size();
-        const MovingShape<Dim> part_a = part(a, child_a), part_b = part(b, child_b);
-        const bool closed = std::ranges::any_of(
-            present, [&](const ContactPoint<Dim>& c) { return c.gap <= tolerance; });
-        if (closed || !part_a.shape.access->support || !part_b.shape.access->support ||
-            !concern(present, tolerance, a.pose, a.motion, b.pose, b.motion))
-            result_.insert(result_.end(), first, last);
-        else
-            Passage<Dim>(part_a, part_b, own, by_support, tolerance, reach, near_)
-                .append(present, result_);
-        for (ContactPoint<Dim>& c : std::span(result_).subspan(kept)) {
-            c.feature = with_child_of_a(c.feature, static_cast<std::uint32_t>(child_a));
-            c.feature = with_child_of_b(c.feature, static_cast<std::uint32_t>(child_b));
-        }
-        first = last;
-    }
-    points.swap(result_);
-}
-
 }  // namespace talus
 
 TALUS_IN_PLANE(class talus::Passage<2>)
-TALUS_IN_PLANE(class talus::AnticipatedContacts<2>)
 TALUS_IN_SPACE(class talus::Passage<3>)
-TALUS_IN_SPACE(class talus::AnticipatedContacts<3>)
