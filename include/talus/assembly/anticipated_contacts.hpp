@@ -110,7 +110,8 @@ void AnticipatedContacts<Dim>::replace(const MovingShape<Dim>& a, const MovingSh
         const MovingShape<Dim> part_a = part(a, child_a), part_b = part(b, child_b);
         const bool closed = std::ranges::any_of(
             present, [&](const ContactPoint<Dim>& c) { return c.gap <= tolerance; });
-        if (closed || !part_a.shape.access->support || !part_b.shape.access->support ||
+        if (closed || !part_a.foreseeable() || !part_b.foreseeable() ||
+            !part_a.shape.access->support || !part_b.shape.access->support ||
             !concern(present, tolerance, a.pose, a.motion, b.pose, b.motion))
             result_.insert(result_.end(), first, last);
         else

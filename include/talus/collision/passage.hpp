@@ -22,7 +22,14 @@ struct MovingShape {
     Pose<Dim> pose;
     Twist<Dim> motion;  ///< displacement of the frame's origin and turn, world axes [m, rad]
 
-    bool turns() const { return !motion.angular.isZero(0.0); }
+    /// Whether its turning shows: that of a ball about its centre does not.
+    bool turns() const {
+        return !motion.angular.isZero(0.0) &&
+               !(shape.kind() == ShapeKind::ball &&
+                 shape.template as<Ball<Dim>>().centre().isZero(0.0));
+    }
+    /// Whether it turns little enough for where it gets to be foreseen.
+    bool foreseeable() const;
     /// After `steps` such steps.
     Pose<Dim> pose_after(double steps) const {
         Pose<Dim> p{pose.position + steps * motion.linear, pose.rotation};
@@ -47,6 +54,9 @@ struct Foresight {
     /// Motions are followed for this many steps, so that bodies that speed up within the step,
     /// up to this many times, are foreseen as well [-].
     static constexpr double steps = 2.0;
+    /// Turn of a body in one step beyond which its motion is not followed [rad]: contacts then are
+    /// those at the nearest points.
+    static constexpr double most_turn = 0.2;
     /// Overlap along an axis that does not keep it from separating, in units of the smaller
     /// bounding radius: more than resting bodies overlap, less than anyone looks at [-].
     static constexpr double slack = 1e-3;
@@ -56,6 +66,11 @@ struct Foresight {
     /// axis that was left unfinished is safe, but not the one at which the bodies meet.
     static constexpr int most_axes = 12;
 };
+
+template <int Dim>
+bool MovingShape<Dim>::foreseeable() const {
+    return !turns() || motion.angular.norm() <= Foresight::most_turn;
+}
 
 /// The side by which two convex bodies, now apart, can meet in a step.
 ///
@@ -314,7 +329,10 @@ TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
                                std::vector<ContactPoint<Dim>>& out) {
     const auto nearest = std::ranges::min_element(present, {}, &ContactPoint<Dim>::gap);
     const Axis axis = search(nearest->normal);
-    if (axis.found == 0.0 || axis.normal.dot(nearest->normal) > 1.0 - 1e-12 ||
+    // One point of a long body holds neither of its ends when other impulses turn it.
+    const bool weak = axis.across_motion &&
+                      (a_.shape.kind() != ShapeKind::ball && b_.shape.kind() != ShapeKind::ball);
+    if (weak || axis.found == 0.0 || axis.normal.dot(nearest->normal) > 1.0 - 1e-12 ||
         !look(axis.found, axis.shift)) {
         out.insert(out.end(), present.begin(), present.end());
         return;

@@ -24,6 +24,10 @@ double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bound
     return h * (bodies.velocity[i].norm() + turning + falling);
 }
 
+/// Which plane keeps two bodies apart is told by their motion (collision/passage.hpp): of the planes
+/// that separate them now the one that it leaves last, since the normal of the nearest points would
+/// stop a body also at sides that it slides past, as at the edge of the next tile of a flush floor.
+///
 /// What a gap adds to the normal velocity that the law sees: consecutive midpoints differ by h
 /// u_end, so `g/h + u_n >= 0` keeps the next midpoint free of overlap to first order [m/s]. An
 /// overlap adds nothing: it is not pushed out, so that no energy is made.
