@@ -36,6 +36,11 @@ class ContactDetection {
             version_ = version;
         }
         contacts.clear();
+        if (!motion.empty()) {
+            constexpr std::size_t usual = 64;  // contacts of one pair
+            points_.reserve(usual);
+            anticipated_.reserve(usual);
+        }
         for (const CandidatePair& pair : candidates_) {
             const auto a = static_cast<std::size_t>(pair.a);
             const auto b = static_cast<std::size_t>(pair.b);

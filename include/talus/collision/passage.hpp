@@ -28,6 +28,11 @@ struct MovingShape {
                !(shape.kind() == ShapeKind::ball &&
                  shape.template as<Ball<Dim>>().centre().isZero(0.0));
     }
+    /// Whether it is a polytope.
+    bool flat_sided() const {
+        return shape.kind() == ShapeKind::core && shape.core().radius == 0.0 &&
+               shape.core().face_count() > 0;
+    }
     /// Whether it turns little enough for where it gets to be foreseen.
     bool foreseeable() const;
     /// After `steps` such steps.
@@ -60,6 +65,9 @@ struct Foresight {
     /// Overlap along an axis that does not keep it from separating, in units of the smaller
     /// bounding radius: more than resting bodies overlap, less than anyone looks at [-].
     static constexpr double slack = 1e-3;
+    /// The same where one of the two has no flat side: round bodies go from side to side without a
+    /// jump, and more would let them sink by as much where they roll on each other.
+    static constexpr double slack_round = 1e-6;
     /// The same in units of the thinner shape along the axis, so that no plate is overlooked [-].
     static constexpr double slack_of_width = 0.1;
     /// Axes tried one after the other on the way to the first touch. Spheres need five or so; an
@@ -145,7 +153,7 @@ class Passage {
     std::span<const OwnPair<Dim>> own_;
     SupportRoutine<Dim> by_support_;
     double tolerance_, reach_, size_;
-    bool turning_;
+    bool turning_, flat_;
     std::vector<ContactPoint<Dim>>& near_;
 };
 
@@ -166,13 +174,14 @@ TALUS_OF_PASSAGE()::Passage(const MovingShape<Dim>& a, const MovingShape<Dim>& b
       reach_(reach),
       size_(std::min(a.bound(), b.bound())),
       turning_(a.turns() || b.turns()),
+      flat_(a.flat_sided() && b.flat_sided()),
       near_(near) {}
 
 TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::measured(const Vector<Dim>& n) const {
     Axis axis{n, separation(n, a_.pose, b_.pose), 0.0, 0.0, 0.0};
     const double thinner = std::min(width(a_, n), width(b_, n));
-    axis.slack =
-        std::min(tolerance_ + Foresight::slack * size_, Foresight::slack_of_width * thinner);
+    axis.slack = std::min(tolerance_ + (flat_ ? Foresight::slack : Foresight::slack_round) * size_,
+                          Foresight::slack_of_width * thinner);
     double middle, far;
     if (turning_) {
         middle = separation(n, one_ahead_[0], one_ahead_[1]);
