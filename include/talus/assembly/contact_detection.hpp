@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/assembly/anticipated_contacts.hpp>
 #include <talus/collision/concepts.hpp>
 #include <talus/collision/contact_set.hpp>
 #include <talus/collision/narrow_phase.hpp>
@@ -24,22 +25,31 @@ class ContactDetection {
     /// Finds every contact with gap <= reach[a] + reach[b]. `radius[i]` bounds body i about its
     /// centre, infinite for unbounded shapes; `skin` is the widening of new boxes: a larger one
     /// gives more candidates, kept for longer. All in [m]. `version` is another number whenever
-    /// some shape is another.
+    /// some shape is another. If `motion` is given, of each body over one step [m, rad], contacts
+    /// of gap > `tolerance` are those that it leads to (anticipated_contacts.hpp).
     void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, std::uint64_t version,
                 std::span<const double> radius, double skin, std::span<const double> reach,
-                ContactSet<Dim>& contacts) {
+                std::span<const Twist<Dim>> motion, double tolerance, ContactSet<Dim>& contacts) {
         if (version != version_ || left_a_box(bodies, radius, reach)) {
             box_.clear();  // so that a failure on the way leaves nothing that looks found
             find_candidates(bodies, shapes, skin, reach);
             version_ = version;
         }
         contacts.clear();
+        if (!motion.empty()) {
+            constexpr std::size_t usual = 64;  // contacts of one pair
+            points_.reserve(usual);
+            anticipated_.reserve(usual);
+        }
         for (const CandidatePair& pair : candidates_) {
             const auto a = static_cast<std::size_t>(pair.a);
             const auto b = static_cast<std::size_t>(pair.b);
             points_.clear();
             contact_points<Dim>(shapes[a], bodies.pose(a), shapes[b], bodies.pose(b),
                                 reach[a] + reach[b], points_);
+            if (!motion.empty() && !points_.empty())
+                anticipate<Dim>(shapes[a], bodies.pose(a), motion[a], shapes[b], bodies.pose(b),
+                                motion[b], tolerance, reach[a] + reach[b], anticipated_, points_);
             std::sort(points_.begin(), points_.end(),
                       [](const auto& x, const auto& y) { return x.feature < y.feature; });
             for (const ContactPoint<Dim>& point : points_)
@@ -91,6 +101,7 @@ class ContactDetection {
     std::uint64_t version_ = 0;            // of the shapes
     std::vector<CandidatePair> candidates_;
     std::vector<ContactPoint<Dim>> points_;
+    AnticipatedContacts<Dim> anticipated_;
 };
 
 }  // namespace talus

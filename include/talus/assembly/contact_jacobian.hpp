@@ -21,8 +21,11 @@ void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodie
         jacobian.a[c] = a;
         jacobian.b[c] = b;
         jacobian.frame[c] = local_frame<Dim>(contacts.normal[c]);
-        jacobian.arm_a[c] = contacts.point[c] - bodies.position[static_cast<std::size_t>(a)];
-        jacobian.arm_b[c] = contacts.point[c] - bodies.position[static_cast<std::size_t>(b)];
+        const Vector<Dim> half_slide = 0.5 * contacts.slide[c];
+        jacobian.arm_a[c] =
+            contacts.point[c] - half_slide - bodies.position[static_cast<std::size_t>(a)];
+        jacobian.arm_b[c] =
+            contacts.point[c] + half_slide - bodies.position[static_cast<std::size_t>(b)];
     }
 }
 
