@@ -18,16 +18,17 @@ template <int Dim>
 requires SpaceDimension<Dim>
 class AnticipatedContacts {
   public:
-    /// Whether the foreseen motion would close the gap of some contact that is open, that is
-    /// larger than `tolerance` [m]: else the contacts are good as they are.
-    static bool concern(std::span<const ContactPoint<Dim>> points, double tolerance,
+    /// Whether the foreseen motion would close some contact, or closes one further: else they are
+    /// good as they are. Closed are those of gap <= tolerance, and approaches of less than a
+    /// thousandth of `reach` are noise of bodies at rest [m].
+    static bool concern(std::span<const ContactPoint<Dim>> points, double tolerance, double reach,
                         const Pose<Dim>& pose_a, const Twist<Dim>& motion_a,
                         const Pose<Dim>& pose_b, const Twist<Dim>& motion_b);
 
     /// Puts the contacts that the motion leads to in the place of those of `points`, which are what
-    /// the narrow phase found for the same pair up to the gap `reach` [m]. Convex parts of which a
-    /// contact is closed keep all theirs, and so do half-spaces, which have one normal alone, and
-    /// shapes without a support mapping. The contacts put in are open: of gap > tolerance.
+    /// the narrow phase found for the same pair up to the gap `reach` [m]. Those of half-spaces,
+    /// which have one normal alone, of two shapes without faces and of shapes without a support
+    /// mapping stay. What takes the place of open contacts, of gap > tolerance, is open.
     void replace(const MovingShape<Dim>& a, const MovingShape<Dim>& b,
                  std::span<const OwnPair<Dim>> own, SupportRoutine<Dim> by_support,
                  double tolerance, double reach, std::vector<ContactPoint<Dim>>& points);
@@ -55,7 +56,8 @@ requires CanMeet<A, B, Dim>
 void anticipate(const A& a, const Pose<Dim>& pose_a, const Twist<Dim>& motion_a, const B& b,
                 const Pose<Dim>& pose_b, const Twist<Dim>& motion_b, double tolerance, double reach,
                 AnticipatedContacts<Dim>& anticipated, std::vector<ContactPoint<Dim>>& points) {
-    if (AnticipatedContacts<Dim>::concern(points, tolerance, pose_a, motion_a, pose_b, motion_b))
+    if (AnticipatedContacts<Dim>::concern(points, tolerance, reach, pose_a, motion_a, pose_b,
+                                          motion_b))
         anticipated.replace({view_of<Dim>(a), pose_a, motion_a},
                             {view_of<Dim>(b), pose_b, motion_b}, detail::own_pairs<Dim, A, B>,
                             detail::support_routine<Dim, A, B>(), tolerance, reach, points);
@@ -64,12 +66,14 @@ void anticipate(const A& a, const Pose<Dim>& pose_a, const Twist<Dim>& motion_a,
 template <int Dim>
 requires SpaceDimension<Dim>
 bool AnticipatedContacts<Dim>::concern(std::span<const ContactPoint<Dim>> points, double tolerance,
-                                       const Pose<Dim>& pose_a, const Twist<Dim>& motion_a,
-                                       const Pose<Dim>& pose_b, const Twist<Dim>& motion_b) {
+                                       double reach, const Pose<Dim>& pose_a,
+                                       const Twist<Dim>& motion_a, const Pose<Dim>& pose_b,
+                                       const Twist<Dim>& motion_b) {
     return std::ranges::any_of(points, [&](const ContactPoint<Dim>& c) {
         const Vector<Dim> change =
             motion_a.at(c.point - pose_a.position) - motion_b.at(c.point - pose_b.position);
-        return c.gap > tolerance && c.gap + Foresight::steps * c.normal.dot(change) < 0.0;
+        const double way = Foresight::steps * c.normal.dot(change);
+        return c.gap > tolerance ? c.gap + way < 0.0 : way < -1e-3 * reach;
     });
 }
 
@@ -108,11 +112,9 @@ void AnticipatedContacts<Dim>::replace(const MovingShape<Dim>& a, const MovingSh
         const auto [child_a, child_b] = children(*first);
         const std::size_t kept = result_.size();
         const MovingShape<Dim> part_a = part(a, child_a), part_b = part(b, child_b);
-        const bool closed = std::ranges::any_of(
-            present, [&](const ContactPoint<Dim>& c) { return c.gap <= tolerance; });
-        if (closed || !part_a.foreseeable() || !part_b.foreseeable() ||
-            !part_a.shape.access->support || !part_b.shape.access->support ||
-            !concern(present, tolerance, a.pose, a.motion, b.pose, b.motion))
+        if (!part_a.foreseeable() || !part_b.foreseeable() || !part_a.shape.access->support ||
+            !part_b.shape.access->support || !(part_a.has_faces() || part_b.has_faces()) ||
+            !concern(present, tolerance, reach, a.pose, a.motion, b.pose, b.motion))
             result_.insert(result_.end(), first, last);
         else
             Passage<Dim>(part_a, part_b, own, by_support, tolerance, reach, near_)

@@ -28,10 +28,8 @@ struct MovingShape {
                !(shape.kind() == ShapeKind::ball &&
                  shape.template as<Ball<Dim>>().centre().isZero(0.0));
     }
-    /// Whether it is a polytope.
-    bool flat_sided() const {
-        return shape.kind() == ShapeKind::core && shape.core().radius == 0.0 &&
-               shape.core().face_count() > 0;
+    bool has_faces() const {
+        return shape.kind() == ShapeKind::core && shape.core().face_count() > 0;
     }
     /// Whether it turns little enough for where it gets to be foreseen.
     bool foreseeable() const;
@@ -65,14 +63,11 @@ struct Foresight {
     /// Overlap along an axis that does not keep it from separating, in units of the smaller
     /// bounding radius: more than resting bodies overlap, less than anyone looks at [-].
     static constexpr double slack = 1e-3;
-    /// The same where one of the two has no flat side: round bodies go from side to side without a
-    /// jump, and more would let them sink by as much where they roll on each other.
-    static constexpr double slack_round = 1e-6;
     /// The same in units of the thinner shape along the axis, so that no plate is overlooked [-].
     static constexpr double slack_of_width = 0.1;
-    /// Axes tried one after the other on the way to the first touch. Spheres need five or so; an
-    /// axis that was left unfinished is safe, but not the one at which the bodies meet.
-    static constexpr int most_axes = 12;
+    /// Axes tried one after the other on the way to the first touch. An axis that was left
+    /// unfinished is safe, but not the one at which the bodies meet.
+    static constexpr int most_axes = 8;
 };
 
 template <int Dim>
@@ -90,12 +85,11 @@ bool MovingShape<Dim>::foreseeable() const {
 /// that meet do so across it.
 ///
 /// sep(n, s) = min over A of n.x - max over B of n.x with both bodies s steps ahead. An axis
-/// qualifies if sep(n, 0) >= -slack; it is lost at the first s at which sep(n, s) < -slack, and
-/// held if at none that is looked at. The search starts from the normal of the nearest points,
-/// looks at the normals at the end of the motion, and then climbs: where an axis is lost, the
-/// narrow phase names the next one, as in conservative advancement. Between an axis that is lost
-/// and one that is held but was not separating at first there is one, across the motion, that is
-/// both: that of bodies that pass a corner.
+/// qualifies if sep(n, 0) >= -slack, and is lost at the first s at which sep(n, s) < -slack; it is
+/// held if it is at none. Tried are the normal of the nearest points and those of all faces; then,
+/// where the best of them is lost, the narrow phase names the next, as in conservative advancement.
+/// If that one does not separate the bodies now, they pass a corner of each other: between the two
+/// is an axis across the motion that does so all the way.
 template <int Dim>
 requires SpaceDimension<Dim>
 class Passage {
@@ -105,56 +99,50 @@ class Passage {
             SupportRoutine<Dim> by_support, double tolerance, double reach,
             std::vector<ContactPoint<Dim>>& near);
 
-    /// Appends to `out` the contacts to keep in place of those at the nearest points, `present`.
+    /// Appends to `out` the contacts to keep in place of those at the nearest points, `present`:
+    /// perhaps none.
     void append(std::span<const ContactPoint<Dim>> present, std::vector<ContactPoint<Dim>>& out);
 
   private:
-    /// An axis of separation and where it was found.
     struct Axis {
         Vector<Dim> normal;
-        double now, end;     ///< sep now, and the least of those at the ends of the steps [m]
-        double slack;        ///< [m]
-        double lost;         ///< steps until it is lost; infinite if it is held
-        double found = 0.0;  ///< steps until the place of its contacts
-        Vector<Dim> shift = Vector<Dim>::Zero();  ///< of A at that place, besides [m]
-        bool across_motion = false;               ///< not a normal of contacts there
+        double now, next, last;  ///< sep(normal, s) at s = 0, 1, 2 [m]
+        double lost;             ///< steps until it is lost; 0 if it does not qualify
 
         bool held() const { return lost == std::numeric_limits<double>::infinity(); }
-        bool qualifies() const { return now >= -slack; }
-        /// How much of the foreseen motion its plane would take [m].
-        double taken() const { return std::max(0.0, -(std::max(now, 0.0) + end - now)); }
+        bool qualifies() const { return lost > 0.0; }
+        double end() const { return std::min(next, last); }
     };
+    enum class Outcome { meet, held, pass };
 
     double separation(const Vector<Dim>& n, const Pose<Dim>& a, const Pose<Dim>& b) const {
         return n.dot(a_.foremost(-n, a) - b_.foremost(n, b));
     }
-    double separation(const Vector<Dim>& n, double steps) const {
-        return separation(n, a_.pose_after(steps), b_.pose_after(steps));
-    }
     double width(const MovingShape<Dim>& m, const Vector<Dim>& n) const {
         return n.dot(m.foremost(n, m.pose) - m.foremost(-n, m.pose));
     }
+    double slack(const Vector<Dim>& n) const;
     Axis measured(const Vector<Dim>& n) const;
-    double steps_until_lost(const Axis& axis, double middle) const;
     bool better(const Axis& x, const Axis& than) const;
-    /// Finds the contacts with the bodies so far ahead; false if they are too far apart.
-    bool look(double steps, const Vector<Dim>& shift);
-    /// The best axis that follows from the normal found there: fixed, or turning with a body.
-    Axis axis_from(const Vector<Dim>& n, double steps, const Vector<Dim>& shift) const;
-    void try_at(double steps, const Vector<Dim>& shift, Axis& best);
+    /// Finds the contacts with the bodies so far ahead, A shifted; null if they are too far apart.
+    const ContactPoint<Dim>* look(double steps, const Vector<Dim>& shift);
+    void try_faces(const MovingShape<Dim>& m, double sign, Axis& best) const;
+    Outcome advance(Axis& best);
+    bool find_place_along(const Axis& axis);
     Axis across(const Axis& lost, const Axis& gained) const;
-    void advance(Axis& best);
-    Axis search(const Vector<Dim>& nearest);
-    ContactPoint<Dim> brought_back(const ContactPoint<Dim>& point, const Axis& axis) const;
+    ContactPoint<Dim> brought_back(const ContactPoint<Dim>& point) const;
     ContactPoint<Dim> of_foremost_points(FeatureId feature, const Axis& axis) const;
+    void append_near(double least_gap, std::vector<ContactPoint<Dim>>& out);
 
     const MovingShape<Dim>&a_, &b_;
     std::array<Pose<Dim>, 2> one_ahead_, all_ahead_;
     std::span<const OwnPair<Dim>> own_;
     SupportRoutine<Dim> by_support_;
     double tolerance_, reach_, size_;
-    bool turning_, flat_;
+    bool turning_;
     std::vector<ContactPoint<Dim>>& near_;
+    double seen_at_ = 0.0;                     ///< where `near_` is from [steps]
+    Vector<Dim> shift_ = Vector<Dim>::Zero();  ///< of A, there [m]
 };
 
 #define TALUS_OF_PASSAGE(...) \
@@ -174,154 +162,117 @@ TALUS_OF_PASSAGE()::Passage(const MovingShape<Dim>& a, const MovingShape<Dim>& b
       reach_(reach),
       size_(std::min(a.bound(), b.bound())),
       turning_(a.turns() || b.turns()),
-      flat_(a.flat_sided() && b.flat_sided()),
       near_(near) {}
+
+TALUS_OF_PASSAGE(double)::slack(const Vector<Dim>& n) const {
+    return std::min(tolerance_ + Foresight::slack * size_,
+                    Foresight::slack_of_width * std::min(width(a_, n), width(b_, n)));
+}
 
 TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::measured(const Vector<Dim>& n) const {
     Axis axis{n, separation(n, a_.pose, b_.pose), 0.0, 0.0, 0.0};
-    const double thinner = std::min(width(a_, n), width(b_, n));
-    axis.slack = std::min(tolerance_ + (flat_ ? Foresight::slack : Foresight::slack_round) * size_,
-                          Foresight::slack_of_width * thinner);
-    double middle, far;
+    if (axis.now < -(tolerance_ + Foresight::slack * size_)) return axis;
+    const double slack = this->slack(n);
+    if (axis.now < -slack) return axis;
     if (turning_) {
-        middle = separation(n, one_ahead_[0], one_ahead_[1]);
-        far = separation(n, all_ahead_[0], all_ahead_[1]);
+        axis.next = separation(n, one_ahead_[0], one_ahead_[1]);
+        axis.last = separation(n, all_ahead_[0], all_ahead_[1]);
     } else {
         const double change = n.dot(a_.motion.linear - b_.motion.linear);
-        middle = axis.now + change;
-        far = axis.now + Foresight::steps * change;
+        axis.next = axis.now + change;
+        axis.last = axis.now + Foresight::steps * change;
     }
-    axis.end = std::min(middle, far);
-    axis.lost = steps_until_lost(axis, middle);
+    const auto crossing = [&](double above, double below) {
+        return std::max((above + slack) / (above - below), 1e-12);
+    };
+    axis.lost = axis.next < -slack ? crossing(axis.now, axis.next)
+                : axis.last < -slack
+                    ? 1.0 + (Foresight::steps - 1.0) * crossing(axis.next, axis.last)
+                    : std::numeric_limits<double>::infinity();
     return axis;
 }
 
-/// By the rule of the secant, its bracket halved in between: one secant is exact for bodies that do
-/// not turn. Turning bodies may dip below the slack and come back unseen between the ends of steps,
-/// where nobody looks.
-TALUS_OF_PASSAGE(double)::steps_until_lost(const Axis& axis, double middle) const {
-    if (!axis.qualifies()) return 0.0;
-    if (axis.end >= -axis.slack) return std::numeric_limits<double>::infinity();
-    const bool soon = middle < -axis.slack;
-    double low = 0.0, high = soon ? 1.0 : Foresight::steps;
-    double above = axis.now + axis.slack, below = (soon ? middle : axis.end) + axis.slack;
-    if (!turning_) return low + (high - low) * (above / (above - below));
-    for (int k = 0; k < 16 && high - low > 1e-4; ++k) {
-        const double share = k % 2 == 0 ? above / (above - below) : 0.5;
-        const double s = low + (high - low) * share;
-        const double at = separation(axis.normal, s) + axis.slack;
-        if (at >= 0.0)
-            low = s, above = at;
-        else
-            high = s, below = at;
-    }
-    return low;
-}
-
 TALUS_OF_PASSAGE(bool)::better(const Axis& x, const Axis& than) const {
-    const double doubt = 1e-9 * size_;
-    if (!x.qualifies()) return false;
-    if (x.held() != than.held()) return x.held();
-    if (!x.held()) return x.lost > than.lost + 1e-6;
-    if (std::abs(x.taken() - than.taken()) > doubt) return x.taken() < than.taken();
-    return x.end > than.end + doubt;
+    if (x.held() && than.held()) return x.end() > than.end() + 1e-9 * size_;
+    return x.lost > than.lost + 1e-6;
 }
 
-TALUS_OF_PASSAGE(bool)::look(double steps, const Vector<Dim>& shift) {
+TALUS_OF_PASSAGE(const ContactPoint<Dim>*)::look(double steps, const Vector<Dim>& shift) {
     near_.clear();
+    seen_at_ = steps;
+    shift_ = shift;
     Pose<Dim> a = a_.pose_after(steps);
     a.position += shift;
     // Apart by the reach at most now, and going as far in each step.
     const double margin = (1.0 + Foresight::steps) * reach_ + 2.0 * Foresight::slack * size_;
     NarrowPhase<Dim>(margin, own_, by_support_, near_)
         .append(a_.shape, a, b_.shape, b_.pose_after(steps));
-    return !near_.empty();
+    if (near_.empty()) return nullptr;
+    return &*std::ranges::min_element(near_, {}, &ContactPoint<Dim>::gap);
 }
 
-TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::axis_from(const Vector<Dim>& n, double steps,
-                                                         const Vector<Dim>& shift) const {
-    Axis axis = measured(n);
-    for (const MovingShape<Dim>* m : {&a_, &b_}) {
-        if (!m->turns()) continue;
-        const Axis turned =
-            measured(m->pose.rotation * m->pose_after(steps).rotation.transpose_times(n));
-        if (!axis.qualifies() || better(turned, axis)) axis = turned;
+TALUS_OF_PASSAGE(void)::try_faces(const MovingShape<Dim>& m, double sign, Axis& best) const {
+    if (!m.has_faces()) return;
+    for (const Vector<Dim>& normal : m.shape.core().normals) {
+        const Axis axis = measured(Vector<Dim>(sign * (m.pose.rotation * normal)));
+        if (better(axis, best)) best = axis;
     }
-    axis.found = steps;
-    axis.shift = shift;
-    return axis;
 }
 
-TALUS_OF_PASSAGE(void)::try_at(double steps, const Vector<Dim>& shift, Axis& best) {
-    if (!look(steps, shift)) return;
-    const auto nearest = std::ranges::min_element(near_, {}, &ContactPoint<Dim>::gap);
-    const Axis axis = axis_from(nearest->normal, steps, shift);
-    if (better(axis, best)) best = axis;
+/// From axis to axis, each lost later than the one before, to the place where the bodies touch.
+TALUS_OF_PASSAGE(typename Passage<Dim>::Outcome)::advance(Axis& best) {
+    for (int k = 0; k < Foresight::most_axes && !best.held(); ++k) {
+        const ContactPoint<Dim>* nearest = look(best.lost, Vector<Dim>::Zero());
+        if (!nearest) return Outcome::pass;
+        if (nearest->normal.dot(best.normal) > 1.0 - 1e-10) return Outcome::meet;
+        const Axis next = measured(nearest->normal);
+        if (!next.qualifies()) {
+            best = across(best, next);
+            return Outcome::pass;
+        }
+        if (!better(next, best)) return Outcome::meet;
+        best = next;
+    }
+    return best.held() ? Outcome::held : Outcome::meet;
+}
+
+/// Bodies that an axis keeps apart can touch across it only where the one is over the other.
+TALUS_OF_PASSAGE(bool)::find_place_along(const Axis& axis) {
+    const double deeper = 2.0 * slack(axis.normal);
+    for (const double steps : {1.0, Foresight::steps}) {
+        const double apart = steps == 1.0 ? axis.next : axis.last;
+        const ContactPoint<Dim>* nearest =
+            look(steps, Vector<Dim>(-(apart + deeper) * axis.normal));
+        if (nearest && nearest->normal.dot(axis.normal) > 1.0 - 1e-3) return true;
+    }
+    return false;
 }
 
 /// The positive combination of two axes whose separation the motion does not change. Where the one
 /// is lost the other separates, and so does what is between them; and across the motion it did so
 /// before and will do so afterwards.
 TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::across(const Axis& lost, const Axis& gained) const {
-    const auto change = [&](const Axis& axis) {
-        return separation(axis.normal, one_ahead_[0], one_ahead_[1]) - axis.now;
+    const auto change = [&](const Vector<Dim>& n) {
+        return separation(n, one_ahead_[0], one_ahead_[1]) - separation(n, a_.pose, b_.pose);
     };
-    const double down = std::max(-change(lost), 0.0), up = std::max(change(gained), 0.0);
+    const double down = std::max(-change(lost.normal), 0.0);
+    const double up = std::max(change(gained.normal), 0.0);
     const Vector<Dim> n = up * lost.normal + down * gained.normal;
-    if (!(n.norm() > 0.0)) return gained;
-    Axis axis = measured(Vector<Dim>(n.normalized()));
-    axis.found = gained.found;
-    axis.across_motion = true;
-    return axis;
-}
-
-/// From axis to axis, each lost later than the one before.
-TALUS_OF_PASSAGE(void)::advance(Axis& best) {
-    for (int k = 0; k < Foresight::most_axes && !best.held(); ++k) {
-        const double lost = best.lost;
-        if (!look(lost, Vector<Dim>::Zero())) return;
-        const auto nearest = std::ranges::min_element(near_, {}, &ContactPoint<Dim>::gap);
-        const Axis next = axis_from(nearest->normal, lost, Vector<Dim>::Zero());
-        if (better(next, best)) {
-            best = next;
-        } else if (!next.qualifies()) {
-            const Axis between = across(best, next);
-            if (!better(between, best)) return;
-            best = between;
-        } else {
-            best.found = lost;  // they meet here, and so the contacts are those of this place
-            return;
-        }
-    }
-}
-
-TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::search(const Vector<Dim>& nearest) {
-    Axis best = measured(nearest);
-    for (const double steps : {1.0, Foresight::steps}) {
-        if (best.held() && best.taken() == 0.0) return best;
-        try_at(steps, Vector<Dim>::Zero(), best);
-    }
-    // Within the slack of two sides the narrow phase may name the wrong one: deeper in, it does
-    // not.
-    if (best.held() && best.taken() > 0.0)
-        try_at(Foresight::steps, Vector<Dim>(-(best.end + 2.0 * best.slack) * best.normal), best);
-    advance(best);
-    return best;
+    return n.norm() > 0.0 ? measured(Vector<Dim>(n.normalized())) : gained;
 }
 
 /// The contact as it is to be seen now: the gap is less what the motion there adds to it, the arms
 /// stay those of the place where the bodies meet.
-TALUS_OF_PASSAGE(ContactPoint<Dim>)::brought_back(const ContactPoint<Dim>& point,
-                                                  const Axis& axis) const {
-    const Vector<Dim> way_a = axis.found * a_.motion.linear + axis.shift;
-    const Vector<Dim> way_b = axis.found * b_.motion.linear;
+TALUS_OF_PASSAGE(ContactPoint<Dim>)::brought_back(const ContactPoint<Dim>& point) const {
+    const Vector<Dim> way_a = seen_at_ * a_.motion.linear + shift_;
+    const Vector<Dim> way_b = seen_at_ * b_.motion.linear;
     const Vector<Dim> arm_a = point.point - a_.pose.position - way_a;
     const Vector<Dim> arm_b = point.point - b_.pose.position - way_b;
     ContactPoint<Dim> result = point;
     result.point = point.point - 0.5 * (way_a + way_b);
     result.slide = way_a - way_b;
-    result.gap -= axis.found * point.normal.dot(a_.motion.at(arm_a) - b_.motion.at(arm_b)) +
-                  point.normal.dot(axis.shift);
+    result.gap -= seen_at_ * point.normal.dot(a_.motion.at(arm_a) - b_.motion.at(arm_b)) +
+                  point.normal.dot(shift_);
     return result;
 }
 
@@ -334,33 +285,43 @@ TALUS_OF_PASSAGE(ContactPoint<Dim>)::of_foremost_points(FeatureId feature, const
     return {0.5 * (on_a + on_b), n, axis.now, feature, n.dot(apart) * n - apart};
 }
 
-TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
-                               std::vector<ContactPoint<Dim>>& out) {
-    const auto nearest = std::ranges::min_element(present, {}, &ContactPoint<Dim>::gap);
-    const Axis axis = search(nearest->normal);
-    // One point of a long body holds neither of its ends when other impulses turn it.
-    const bool weak = axis.across_motion &&
-                      (a_.shape.kind() != ShapeKind::ball && b_.shape.kind() != ShapeKind::ball);
-    if (weak || axis.found == 0.0 || axis.normal.dot(nearest->normal) > 1.0 - 1e-12 ||
-        !look(axis.found, axis.shift)) {
-        out.insert(out.end(), present.begin(), present.end());
-        return;
-    }
-    const double open = std::nextafter(tolerance_, std::numeric_limits<double>::infinity());
-    if (axis.across_motion) {
-        const auto named = std::ranges::min_element(near_, {}, &ContactPoint<Dim>::gap)->feature;
-        near_.assign(1, of_foremost_points(named, axis));
-    } else {
-        for (ContactPoint<Dim>& point : near_) point = brought_back(point, axis);
-    }
+TALUS_OF_PASSAGE(void)::append_near(double least_gap, std::vector<ContactPoint<Dim>>& out) {
     double least = std::numeric_limits<double>::infinity();
     for (ContactPoint<Dim>& point : near_) {
-        point.gap = std::max(point.gap, open);
+        point = brought_back(point);
+        point.gap = std::max(point.gap, least_gap);
         least = std::min(least, point.gap);
     }
     const double limit = std::max(reach_, least);
     for (const ContactPoint<Dim>& point : near_)
         if (point.gap <= limit) out.push_back(point);
+}
+
+TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
+                               std::vector<ContactPoint<Dim>>& out) {
+    const auto nearest = std::ranges::min_element(present, {}, &ContactPoint<Dim>::gap);
+    const bool closed = nearest->gap <= tolerance_;
+    Axis best = measured(nearest->normal);
+    try_faces(a_, -1.0, best);
+    try_faces(b_, 1.0, best);
+    Outcome outcome = best.held() ? Outcome::held : Outcome::meet;
+    if (!closed && !best.held()) outcome = advance(best);
+    if ((closed && outcome != Outcome::held) ||
+        (outcome != Outcome::pass && best.normal.dot(nearest->normal) > 1.0 - 1e-12)) {
+        out.insert(out.end(), present.begin(), present.end());
+        return;
+    }
+    const double open =
+        closed ? nearest->gap : std::nextafter(tolerance_, std::numeric_limits<double>::infinity());
+    if (outcome == Outcome::pass) {
+        if (best.held() && !near_.empty()) {
+            ContactPoint<Dim> point = of_foremost_points(near_.front().feature, best);
+            point.gap = std::max(point.gap, open);
+            out.push_back(point);
+        }
+    } else if (outcome == Outcome::meet || find_place_along(best)) {
+        append_near(open, out);
+    }
 }
 
 #undef TALUS_OF_PASSAGE
