@@ -288,7 +288,6 @@ TALUS_OF_PASSAGE(ContactPoint<Dim>)::of_foremost_points(FeatureId feature, const
 TALUS_OF_PASSAGE(void)::append_near(double least_gap, std::vector<ContactPoint<Dim>>& out) {
     double least = std::numeric_limits<double>::infinity();
     for (ContactPoint<Dim>& point : near_) {
-        point = brought_back(point);
         point.gap = std::max(point.gap, least_gap);
         least = std::min(least, point.gap);
     }
@@ -306,22 +305,24 @@ TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
     try_faces(b_, 1.0, best);
     Outcome outcome = best.held() ? Outcome::held : Outcome::meet;
     if (!closed && !best.held()) outcome = advance(best);
-    if ((closed && outcome != Outcome::held) ||
-        (outcome != Outcome::pass && best.normal.dot(nearest->normal) > 1.0 - 1e-12)) {
+    const bool is_first =
+        outcome != Outcome::pass && best.normal.dot(nearest->normal) > 1.0 - 1e-12;
+    // Closed contacts are what keeps bodies apart now; and the corners of bodies that touch within
+    // the slack are no places to pass.
+    if (is_first || (outcome != Outcome::meet && !best.held()) ||
+        (closed && outcome == Outcome::meet)) {
         out.insert(out.end(), present.begin(), present.end());
         return;
     }
-    const double open =
-        closed ? nearest->gap : std::nextafter(tolerance_, std::numeric_limits<double>::infinity());
-    if (outcome == Outcome::pass) {
-        if (best.held() && !near_.empty()) {
-            ContactPoint<Dim> point = of_foremost_points(near_.front().feature, best);
-            point.gap = std::max(point.gap, open);
-            out.push_back(point);
-        }
-    } else if (outcome == Outcome::meet || find_place_along(best)) {
-        append_near(open, out);
-    }
+    if (outcome == Outcome::pass)
+        near_.assign(1, of_foremost_points(nearest->feature, best));
+    else if (outcome == Outcome::held && !find_place_along(best))
+        return;
+    else
+        for (ContactPoint<Dim>& point : near_) point = brought_back(point);
+    append_near(
+        closed ? nearest->gap : std::nextafter(tolerance_, std::numeric_limits<double>::infinity()),
+        out);
 }
 
 #undef TALUS_OF_PASSAGE
