@@ -305,12 +305,12 @@ TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
     try_faces(b_, 1.0, best);
     Outcome outcome = best.held() ? Outcome::held : Outcome::meet;
     if (!closed && !best.held()) outcome = advance(best);
-    const bool is_first =
-        outcome != Outcome::pass && best.normal.dot(nearest->normal) > 1.0 - 1e-12;
-    // Closed contacts are what keeps bodies apart now; and the corners of bodies that touch within
-    // the slack are no places to pass.
-    if (is_first || (outcome != Outcome::meet && !best.held()) ||
-        (closed && outcome == Outcome::meet)) {
+    const bool is_first = best.normal.dot(nearest->normal) > 1.0 - 1e-12;
+    // A closed contact keeps bodies apart now, unless another axis does so all the way; and the
+    // corners of bodies that touch within the slack are no places to pass.
+    const bool stays =
+        outcome == Outcome::pass ? !best.held() : is_first || (closed && outcome == Outcome::meet);
+    if (stays) {
         out.insert(out.end(), present.begin(), present.end());
         return;
     }
