@@ -35,6 +35,7 @@ inline std::string text_of(const Figures& f) {
     line("  residual             worst %.2e%s", f.residual.value, place_of(f.residual).c_str());
     line("  law violated by      %.1e m/s at most%s", f.velocity_error.value,
          place_of(f.velocity_error).c_str());
+    line("                       %.1e m in all, about the most that overlaps grew for it", f.drift);
     line("  overlap              mean %.3f %% of the mean radius at the end",
          100 * f.mean_penetration() / f.mean_radius);
     line("                       deepest %.2f %% of the smaller radius%s", 100 * f.overlap.value,
@@ -88,6 +89,7 @@ inline nlohmann::json json_of(const Figures& f) {
     j["worst"] = {{"residual", json_of(f.residual)},
                   {"velocity_error_m_per_s", json_of(f.velocity_error)},
                   {"overlap_over_smaller_radius", json_of(f.overlap)}};
+    j["drift_m"] = f.drift;
     j["mean_radius_m"] = f.mean_radius;
     j["mean_penetration_m"] = f.mean_penetration();
     double deepest = 0.0;

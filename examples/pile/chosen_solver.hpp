@@ -26,9 +26,7 @@ class ChosenSolver {
     ChosenSolver() : ChosenSolver("", {}) {}
     /// An empty name: the default. Throws input_error that lists the names there are.
     ChosenSolver(const std::string& name, talus::SolverSettings settings)
-        : default_(talus::DefaultSolver::params) {
-        default_.params.tolerance = settings.tolerance;
-        default_.params.max_iterations = settings.max_iterations;
+        : default_({.max_sweeps = settings.max_iterations, .tolerance = settings.tolerance}) {
         if (!name.empty())
             named_.emplace(talus::make_solver<Dim, talus::Coulomb<Dim>>(name, settings));
     }
@@ -45,7 +43,7 @@ class ChosenSolver {
     }
 
   private:
-    talus::AcceleratedGaussSeidel<Dim, Law> default_;
+    talus::GaussSeidel<Dim, Law> default_;
     std::optional<talus::AnySolver<Dim, talus::Coulomb<Dim>>> named_;
     talus::ContactProblem<Dim, talus::Coulomb<Dim>> problem_;  ///< what the named one is given
 };

@@ -47,6 +47,7 @@ struct Figures {
     std::vector<StepFigures> steps;
     std::int64_t missed = 0;
     WorstFigure residual, velocity_error, overlap;
+    double drift = 0.0;  ///< RunSummary::drift [m]
     double kinetic_start = 0.0, potential_start = 0.0, momentum_up_start = 0.0;
     GivenEnergy given;
     double energy_missing = 0.0, energy_closure = 0.0;

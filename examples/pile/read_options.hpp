@@ -50,8 +50,7 @@ inline void check(const Options& o) {
 
 /// What --help says of solvers.
 inline std::string known_solvers() {
-    std::string text =
-        "by name (Gauss-Seidel with momentum: the default of simulations), or one of:";
+    std::string text = "by name (Gauss-Seidel: the default of simulations), or one of:";
     for (const auto& [name, description] : talus::solver_names<3, talus::Coulomb<3>>())
         text += "\n" + std::string(name) + ": " + std::string(description);
     return text;
@@ -94,12 +93,10 @@ inline std::optional<Options> read_options(int argc, char** argv) {
     add_number(app, "--step", o.step, 1e-9, 1e3,
                "step size [s] (5e-4: a fraction of a grain's time to fall its own radius)");
     app.add_option("--solver", o.solver, known_solvers());
-    add_number(
-        app, "--tolerance", o.tolerance, 1e-14, 1,
-        "on the residual of every step, of all contacts and of the worst (1e-3); 1e-8 is for "
-        "the patient");
+    add_number(app, "--tolerance", o.tolerance, 1e-14, 1,
+               "on the residual of every step (1e-4); 1e-8 is for the patient");
     add_number(app, "--max-sweeps", o.max_sweeps, 1, 1e9,
-               "sweeps, or what else the solver counts, allowed per step (5000); steps that miss "
+               "sweeps, or what else the solver counts, allowed per step (20000); steps that miss "
                "the tolerance are counted");
     app.add_option("--scheme", o.scheme,
                    "anticipating (contacts may close their gap but not more) or midpoint (the "

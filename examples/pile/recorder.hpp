@@ -73,6 +73,7 @@ class Recorder {
         f.residual = worst(summary_.residual);
         f.velocity_error = worst(summary_.velocity_error);
         f.overlap = worst(summary_.overlap);
+        f.drift = summary_.drift;
         const talus::EnergyFlows& flows = ledger_.flows();
         f.given = {flows.friction, flows.restitution, flows.walls, flows.gyroscopic,
                    flows.correction};

@@ -21,3 +21,4 @@
 #include <talus/measure/stress.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>
+#include <talus/stepping/step_queries.hpp>

@@ -72,6 +72,10 @@ BOOST_AUTO_TEST_CASE(text_of_others_is_shown_without_its_control_characters) {
     BOOST_TEST(printable("\xe2\x82"
                          "a") == R"(\xe2\x82a)");
     BOOST_TEST(printable(std::string_view("\0", 1)) == R"(\x00)");
+    BOOST_TEST(printable("\x9b\x80") == R"(\x9b\x80)");  // begins in the middle of a character
+    BOOST_TEST(printable("\xe2\x80\xae") == R"(\xe2\x80\xae)");  // writes backwards from here
+    BOOST_TEST(printable("abcdef", 4) == "abcd...");
+    BOOST_TEST(printable("abcd", 4) == "abcd");
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_input_are_one_line_of_text) {

@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(bad_cohesion_is_named) {
     BOOST_CHECK_EXCEPTION((Law{{0.3}, -1.0}.require_valid("glue")), talus::input_error,
                           says("glue.cohesion is -1"));
     BOOST_CHECK_EXCEPTION((Law{{-0.3}, 1.0}.require_valid("glue")), talus::input_error,
-                          says("glue.law.mu is -0.3"));
+                          says("glue.mu is -0.3"));
     Law{{0.3}, 1.0}.require_valid("glue");
 }
 

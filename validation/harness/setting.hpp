@@ -3,6 +3,7 @@
 
 #include <talus/dynamics/prescribed_motion.hpp>
 #include <talus/spatial/inertia.hpp>
+#include <talus/spatial/tilt.hpp>
 #include <talus/stepping/system.hpp>
 
 #include <cmath>
@@ -53,11 +54,7 @@ W<Dim> rolling_spin(double w) {
     else
         return W<3>(0.0, w, 0.0);
 }
-/// The rotation from the first towards the last axis by an angle [rad].
-template <int Dim>
-talus::Rotation<Dim> tilt(double angle) {
-    return talus::Rotation<Dim>::exp(rolling_spin<Dim>(-angle));
-}
+using talus::tilt;
 /// The spin from the first towards the last axis: the sense of `tilt`.
 template <int Dim>
 double tilting_spin(const talus::Twist<Dim>& twist) {

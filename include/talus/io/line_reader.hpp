@@ -3,9 +3,9 @@
 
 #include <talus/core/check.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/printable.hpp>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <istream>
@@ -17,44 +17,9 @@ namespace talus {
 
 namespace detail {
 
-/// Length of the character at the beginning of `text` if it can be shown as it is: printable ASCII,
-/// or valid UTF-8 that neither controls nor formats; 0 if not.
-inline std::size_t showable_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) {
-        return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0u;
-    };
-    const unsigned first = byte(0);
-    if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
-    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-    if (first < 0xc2 || first > 0xf4) return 0;
-    unsigned code = first & (0x7fu >> length);
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xc0u) != 0x80u) return 0;
-        code = code << 6 | (byte(i) & 0x3fu);
-    }
-    constexpr std::array least{0u, 0u, 0xa0u, 0x800u, 0x10000u};
-    const bool formats = (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
-                         (code >= 0x2060 && code <= 0x206f) || code == 0xfeff ||
-                         (code >= 0xd800 && code <= 0xdfff) || code > 0x10ffff;
-    return code < least[length] || formats ? 0 : length;
-}
-
-/// A word as complaints show it: control characters and bytes that are no text as \x1b, and of a
-/// very long one the beginning.
+/// A word of a file as complaints show it: of a very long one the beginning.
 inline std::string shown(std::string_view word, std::size_t longest = 80) {
-    constexpr std::string_view digit = "0123456789abcdef";
-    std::string text;
-    for (std::size_t i = 0; i < word.size();) {
-        if (text.size() >= longest) return text + "...";
-        const std::size_t length = showable_length(word.substr(i));
-        if (length == 0) {
-            const auto byte = static_cast<unsigned char>(word[i]);
-            text += {'\\', 'x', digit[byte >> 4], digit[byte & 15u]};
-        }
-        text += word.substr(i, length);
-        i += std::max<std::size_t>(length, 1);
-    }
-    return text;
+    return printable(word, longest);
 }
 
 }  // namespace detail
@@ -64,7 +29,7 @@ inline std::string shown(std::string_view word, std::size_t longest = 80) {
 /// passed over, others are refused.
 class LineReader {
   public:
-    LineReader(std::istream& text, std::string file)
+    LineReader(std::istream& text, const std::string& file)
         : text_(text), file_(detail::shown(file, 4096)) {}
 
     /// Goes to the next line, which must exist; `what` says what it should hold.

@@ -57,7 +57,7 @@ struct Cohesive {
     void require_valid(std::string_view item) const {
         const std::string name(item);
         require_non_negative(name + ".cohesion", cohesion);
-        if constexpr (requires { law.require_valid(item); }) law.require_valid(name + ".law");
+        if constexpr (requires { law.require_valid(item); }) law.require_valid(item);
     }
 
   private:

@@ -54,7 +54,7 @@ struct WeightedMean {
         const std::string name(item);
         require_in(name + ".restitution_normal", restitution_normal, 0.0, 1.0);
         require_in(name + ".restitution_tangential", restitution_tangential, 0.0, 1.0);
-        if constexpr (requires { law.require_valid(item); }) law.require_valid(name + ".law");
+        if constexpr (requires { law.require_valid(item); }) law.require_valid(item);
     }
 };
 

@@ -23,8 +23,8 @@ struct Residual {
     /// zeta of ResidualMeasure: the worst contact, in the scale of its own island [-].
     double contact = 0.0;
     std::size_t worst_contact = 0;  ///< where that is
-    /// The largest velocity by which a contact's law is violated [m/s]: no overlap grows faster for
-    /// the residual's sake.
+    /// The largest velocity by which a contact's law is violated [m/s]: times sqrt(1 + mu^2), no
+    /// overlap grows faster for the residual's sake.
     double velocity = 0.0;
     double worst_share = 0.0;  ///< largest error over the root mean square scale of a contact [-]
 

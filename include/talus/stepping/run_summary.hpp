@@ -29,6 +29,9 @@ struct RunSummary {
     Worst residual;           ///< of SolveReport [-]
     Worst contact_error;      ///< of SolveReport: at the worst contact, in its own scale [-]
     Worst velocity_error;     ///< largest velocity by which a contact violated its law [m/s]
+    /// The sum over all steps of h times the worst velocity error [m]: times sqrt(1 + mu^2), no
+    /// overlap has grown by more for want of accuracy.
+    double drift = 0.0;
     /// Deepest overlap as a fraction of the bounding radius of the smaller body [-].
     Worst overlap;
     bool stopped = false;  ///< by the observer
@@ -45,6 +48,7 @@ struct RunSummary {
         note(residual, data.report.residual, data, c);
         note(contact_error, data.report.contact_error, data, c);
         note(velocity_error, data.report.velocity_error, data, c);
+        drift += data.h * data.report.velocity_error;
         const auto radius = system.bounding_radius();
         for (std::size_t k = 0; k < data.contact_count(); ++k) {
             if (data.contacts.gap[k] >= 0.0) continue;
@@ -81,6 +85,8 @@ inline std::string to_string(const RunSummary& run) {
     if (run.residual.value > 0.0)
         text += "; worst residual " + detail::text_of(run.residual.value) + ", worst contact " +
                 at(run.contact_error);
+    if (run.drift > 0.0)
+        text += "; errors of velocity add up to " + detail::text_of(run.drift) + " m";
     if (run.overlap.value > 0.0)
         text += "; deepest overlap, of the smaller radius, " + at(run.overlap);
     return text;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/assembly/contact_jacobian.hpp>
+#include <talus/core/check.hpp>
+#include <talus/spatial/twist.hpp>
+#include <talus/stepping/step_data.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+// What users ask a step about bodies and contacts. Bodies may be named in any order; a body that is
+// in no contact, or is none, has no contacts. O(contacts) each; forces are impulses divided by h.
+
+/// Indices of the contacts between two bodies, in the order of the step's contacts.
+template <int Dim, class Law>
+std::vector<std::size_t> contacts_between(const StepData<Dim, Law>& data, BodyIndex one,
+                                          BodyIndex other) {
+    std::vector<std::size_t> found;
+    for (std::size_t c = 0; c < data.contact_count(); ++c) {
+        const ContactKey& key = data.contacts.key[c];
+        if ((key.a == one && key.b == other) || (key.a == other && key.b == one))
+            found.push_back(c);
+    }
+    return found;
+}
+
+/// Whether two bodies pushed, held or overlapped each other in the step: contacts that are only
+/// anticipated, with a gap and without an impulse, are no touch.
+template <int Dim, class Law>
+bool touches(const StepData<Dim, Law>& data, BodyIndex one, BodyIndex other) {
+    for (const std::size_t c : contacts_between(data, one, other))
+        if (data.contacts.gap[c] <= 0.0 || !data.impulse[c].isZero(0.0)) return true;
+    return false;
+}
+
+/// Impulse of contact c on its first body (key.a), world axes [N s]; on the other it is the
+/// opposite.
+template <int Dim, class Law>
+Vector<Dim> contact_impulse(const StepData<Dim, Law>& data, std::size_t c) {
+    TALUS_CHECK(c < data.contact_count(), "a contact of this step");
+    return data.problem.jacobian.frame[c].transpose() * data.impulse[c];
+}
+
+/// Relative velocity U_end of contact c, of its first body (key.a) against the other, local axes,
+/// the normal first [m/s].
+template <int Dim, class Law>
+Vector<Dim> contact_velocity(const StepData<Dim, Law>& data, std::size_t c) {
+    TALUS_CHECK(c < data.contact_count(), "a contact of this step");
+    return relative_velocity<Dim>(data.problem.jacobian, c, std::span<const Twist<Dim>>(data.end));
+}
+
+namespace detail {
+
+/// Sum over the contacts of `body` whose other body is one that `counts`.
+template <int Dim, class Law, class Counts>
+Wrench<Dim> wrench_impulse_on(const StepData<Dim, Law>& data, BodyIndex body, Counts&& counts) {
+    Wrench<Dim> sum;
+    const ContactJacobian<Dim>& jacobian = data.problem.jacobian;
+    for (std::size_t c = 0; c < data.contact_count(); ++c) {
+        const BodyIndex a = jacobian.a[c], b = jacobian.b[c];
+        if (a == body && counts(b))
+            sum += Wrench<Dim>::at(jacobian.arm_a[c], contact_impulse(data, c));
+        else if (b == body && counts(a))
+            sum += Wrench<Dim>::at(jacobian.arm_b[c], Vector<Dim>(-contact_impulse(data, c)));
+    }
+    return sum;
+}
+
+}  // namespace detail
+
+/// Impulse [N s] that all contacts gave to a body in the step, and its moment about the body's
+/// centre [N m s], world axes.
+template <int Dim, class Law>
+Wrench<Dim> wrench_impulse_on(const StepData<Dim, Law>& data, BodyIndex body) {
+    return detail::wrench_impulse_on(data, body, [](BodyIndex) { return true; });
+}
+
+/// The part of it that one other body gave.
+template <int Dim, class Law>
+Wrench<Dim> wrench_impulse_between(const StepData<Dim, Law>& data, BodyIndex on, BodyIndex from) {
+    return detail::wrench_impulse_on(data, on, [from](BodyIndex other) { return other == from; });
+}
+
+}  // namespace talus
