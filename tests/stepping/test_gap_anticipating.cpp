@@ -236,6 +236,44 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_meets_the_side_of_a_tile_that_it_comes_to_fi
         }
 }
 
+/// Tiles of random lengths with their tops at height 0.
+template <int Dim>
+void add_random_tiles(talus::Simulation<Dim>& sim, std::mt19937& rng, double length) {
+    for (double at = -1.0; at < length;) {
+        const double width = random_input::uniform(rng, 0.05, 0.3);
+        sim.system().add_obstacle(block<Dim>(0.5 * width, 0.1, 2.0),
+                                  talus::Pose<Dim>{in_plane<Dim>(at + 0.5 * width, -0.1), {}});
+        at += width;
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_that_lands_at_a_slant_keeps_its_speed_along_the_tiles, D,
+                              dimensions) {
+    constexpr int Dim = D::value;
+    const unsigned seed = 1;
+    BOOST_TEST_MESSAGE("seed " << seed);
+    std::mt19937 rng(seed);
+    for (double h : {1.0 / 60.0, 1e-2, 1e-3})
+        for (int k = 0; k < (h < 5e-3 ? 10 : 40); ++k) {
+            auto sim = anticipating<Dim>(0.0, h);
+            const double v = random_input::uniform(rng, 5.0, 20.0);
+            const double slant = random_input::uniform(rng, 0.35, 1.2);
+            const double across = v * std::cos(slant), down = v * std::sin(slant);
+            // Bodies that overlap at the first midpoint have met whatever they met there.
+            const double height = 0.51 * h * v + random_input::uniform(rng, 0.005, 0.5);
+            const double duration = std::max(height / down + 0.05, 2.5 * h);
+            add_random_tiles<Dim>(sim, rng, across * duration + 3.0);
+            const double half = random_input::uniform(rng, 0.03, 0.08);
+            const auto box = static_cast<std::size_t>(sim.system().add(
+                block<Dim>(half * random_input::uniform(rng, 0.5, 2.0), half, half), 1000.0,
+                {in_plane<Dim>(random_input::uniform(rng, 0.3, 0.5), height + half), {}},
+                {in_plane<Dim>(across, -down)}));
+            BOOST_TEST(sim.run(duration).steps > 0);
+            BOOST_CHECK_SMALL(sim.system().bodies.velocity[box][0] / across - 1.0, 1e-9);
+            BOOST_CHECK_SMALL(sim.system().bodies.velocity[box][Dim - 1], 1e-6);
+        }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(steps_over_seams_repeat_to_the_bit, D, dimensions) {
     constexpr int Dim = D::value;
     auto one = anticipating<Dim>(0.1, 1e-3), two = anticipating<Dim>(0.1, 1e-3);

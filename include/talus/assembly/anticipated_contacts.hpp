@@ -1,132 +1,243 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/assembly/stopped_motion.hpp>
+#include <talus/collision/contact_set.hpp>
 #include <talus/collision/passage.hpp>
 #include <talus/core/instantiate.hpp>
+#include <talus/dynamics/bodies.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace talus {
 
-/// Contacts of shapes that are apart, by what their motion will make of them (see Passage).
+/// Contacts of bodies that are apart, by what their motion will make of them (see Passage).
+///
+/// Which side two bodies meet depends on what else is in the way: the floor under a body that lands
+/// keeps it from the sides of the tiles. So contacts of pairs that can meet across one side alone,
+/// which are what they are, hold up their bodies first (StoppedMotion); then the others are decided
+/// on, in the order in which they would meet, each by the motion that those before have left.
 template <int Dim>
 requires SpaceDimension<Dim>
 class AnticipatedContacts {
   public:
-    /// Whether the foreseen motion would close some contact, or closes one further: else they are
-    /// good as they are. Closed are those of gap <= tolerance, and approaches of less than a
-    /// thousandth of `reach` are noise of bodies at rest [m].
-    static bool concern(std::span<const ContactPoint<Dim>> points, double tolerance, double reach,
-                        const Pose<Dim>& pose_a, const Twist<Dim>& motion_a,
-                        const Pose<Dim>& pose_b, const Twist<Dim>& motion_b);
+    /// Starts a step; `motion` is that of each body over one step [m, rad].
+    void begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> motion, double tolerance);
 
-    /// Puts the contacts that the motion leads to in the place of those of `points`, which are what
-    /// the narrow phase found for the same pair up to the gap `reach` [m]. Those of half-spaces,
-    /// which have one normal alone, of two shapes without faces and of shapes without a support
-    /// mapping stay. What takes the place of open contacts, of gap > tolerance, is open.
-    void replace(const MovingShape<Dim>& a, const MovingShape<Dim>& b,
-                 std::span<const OwnPair<Dim>> own, SupportRoutine<Dim> by_support,
-                 double tolerance, double reach, std::vector<ContactPoint<Dim>>& points);
-
-    /// Makes room for the contacts of one pair.
-    void reserve(std::size_t count) {
-        near_.reserve(count);
-        result_.reserve(count);
+    /// Takes `points`, what the narrow phase found for bodies a and b up to the gap `reach` [m].
+    /// Pairs come in their order.
+    template <class A, class B>
+    requires CanMeet<A, B, Dim>
+    void add(BodyIndex a, const A& shape_a, BodyIndex b, const B& shape_b, double reach,
+             std::span<const ContactPoint<Dim>> points) {
+        if (!points.empty())
+            add({a, b, view_of<Dim>(shape_a), view_of<Dim>(shape_b), detail::own_pairs<Dim, A, B>,
+                 detail::support_routine<Dim, A, B>(), reach},
+                points);
     }
+
+    /// Appends the contacts of all pairs, sorted. In the place of those that the motion would close
+    /// are the ones that it leads to. Those of half-spaces, which have one normal alone, of two
+    /// shapes without faces and of shapes without a support mapping stay. What takes the place of
+    /// open contacts, of gap > tolerance, is open.
+    void finish(ContactSet<Dim>& contacts);
 
   private:
-    static bool handled_whole(const ShapeView<Dim>& a, const ShapeView<Dim>& b,
-                              std::span<const OwnPair<Dim>> own);
-    static MovingShape<Dim> part(const MovingShape<Dim>& m, std::uint64_t child) {
-        if (m.shape.kind() != ShapeKind::compound) return m;
-        return {m.shape.child(static_cast<std::size_t>(child)), m.pose, m.motion};
-    }
+    /// Two convex parts of bodies, and where their contacts are in `found_`.
+    struct Encounter {
+        BodyIndex a, b;
+        ShapeView<Dim> shape_a, shape_b;
+        std::span<const OwnPair<Dim>> own;
+        SupportRoutine<Dim> by_support;
+        double reach;
+        std::uint32_t child_a = 0, child_b = 0;
+        std::size_t first = 0, count = 0;            ///< contacts at the nearest points
+        std::size_t kept_first = 0, kept_count = 0;  ///< contacts to keep
+        Meeting meeting = {};
+    };
 
+    void add(const Encounter& pair, std::span<const ContactPoint<Dim>> points);
+    void add_parts(const Encounter& pair, std::span<const ContactPoint<Dim>> points);
+    /// Approaches of less are noise of bodies at rest, in units of the reach [-].
+    static constexpr double least_approach = 1e-3;
+    /// Whether the foreseen motion would close some contact, or closes one further: else they are
+    /// good as they are. Closed are those of gap <= tolerance.
+    bool concerns(const Encounter& e) const;
+    bool has_sides(const Encounter& e) const;
+    /// Looks for the contacts that the motion as now known leads to.
+    void judge(Encounter& e);
+    bool hold_up_bodies(const Encounter& e);
+    void decide_disputes();
+
+    std::span<const ContactPoint<Dim>> nearest_of(const Encounter& e) const {
+        return std::span(found_).subspan(e.first, e.count);
+    }
+    std::span<const ContactPoint<Dim>> kept_of(const Encounter& e) const {
+        return std::span(found_).subspan(e.kept_first, e.kept_count);
+    }
+    MovingShape<Dim> moving(BodyIndex i, const ShapeView<Dim>& shape) const;
+
+    const Bodies<Dim>* bodies_ = nullptr;
+    double tolerance_ = 0.0;
+    StoppedMotion<Dim> motion_;
+    std::vector<Encounter> encounters_;
+    std::vector<std::size_t> disputed_;     // encounters
+    std::vector<bool> in_dispute_;          // bodies
+    std::vector<ContactPoint<Dim>> found_;  // by encounter; disputed ones also in the end
     std::vector<ContactPoint<Dim>> near_, result_;
 };
 
-/// The contacts of two bodies, with those that are open as their motion asks.
-template <int Dim, class A, class B>
-requires CanMeet<A, B, Dim>
-void anticipate(const A& a, const Pose<Dim>& pose_a, const Twist<Dim>& motion_a, const B& b,
-                const Pose<Dim>& pose_b, const Twist<Dim>& motion_b, double tolerance, double reach,
-                AnticipatedContacts<Dim>& anticipated, std::vector<ContactPoint<Dim>>& points) {
-    if (AnticipatedContacts<Dim>::concern(points, tolerance, reach, pose_a, motion_a, pose_b,
-                                          motion_b))
-        anticipated.replace({view_of<Dim>(a), pose_a, motion_a},
-                            {view_of<Dim>(b), pose_b, motion_b}, detail::own_pairs<Dim, A, B>,
-                            detail::support_routine<Dim, A, B>(), tolerance, reach, points);
+#define TALUS_OF_ANTICIPATED(...) \
+    template <int Dim>            \
+    requires SpaceDimension<Dim> __VA_ARGS__ AnticipatedContacts<Dim>
+
+TALUS_OF_ANTICIPATED(void)::begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> motion,
+                                  double tolerance) {
+    constexpr std::size_t usual = 64;  // contacts of one pair
+    near_.reserve(usual);
+    result_.reserve(usual);
+    bodies_ = &bodies;
+    tolerance_ = tolerance;
+    motion_.begin(bodies, motion);
+    encounters_.clear();
+    disputed_.clear();
+    found_.clear();
 }
 
-template <int Dim>
-requires SpaceDimension<Dim>
-bool AnticipatedContacts<Dim>::concern(std::span<const ContactPoint<Dim>> points, double tolerance,
-                                       double reach, const Pose<Dim>& pose_a,
-                                       const Twist<Dim>& motion_a, const Pose<Dim>& pose_b,
-                                       const Twist<Dim>& motion_b) {
-    return std::ranges::any_of(points, [&](const ContactPoint<Dim>& c) {
-        const Vector<Dim> change =
-            motion_a.at(c.point - pose_a.position) - motion_b.at(c.point - pose_b.position);
-        const double way = Foresight::steps * c.normal.dot(change);
-        return c.gap > tolerance ? c.gap + way < 0.0 : way < -1e-3 * reach;
-    });
+TALUS_OF_ANTICIPATED(MovingShape<Dim>)::moving(BodyIndex i, const ShapeView<Dim>& shape) const {
+    return {shape, bodies_->pose(static_cast<std::size_t>(i)), motion_.motion(i)};
 }
 
-/// Whether a routine of one's own serves two shapes of which one is a compound: its contacts then
-/// need not be those of children.
-template <int Dim>
-requires SpaceDimension<Dim>
-bool AnticipatedContacts<Dim>::handled_whole(const ShapeView<Dim>& a, const ShapeView<Dim>& b,
-                                             std::span<const OwnPair<Dim>> own) {
-    return (a.kind() == ShapeKind::compound || b.kind() == ShapeKind::compound) &&
-           std::ranges::any_of(own, [&](const OwnPair<Dim>& pair) {
-               return (pair.a == a.access && pair.b == b.access) ||
-                      (pair.a == b.access && pair.b == a.access);
-           });
-}
-
-template <int Dim>
-requires SpaceDimension<Dim>
-void AnticipatedContacts<Dim>::replace(const MovingShape<Dim>& a, const MovingShape<Dim>& b,
-                                       std::span<const OwnPair<Dim>> own,
-                                       SupportRoutine<Dim> by_support, double tolerance,
-                                       double reach, std::vector<ContactPoint<Dim>>& points) {
-    if (handled_whole(a.shape, b.shape, own)) return;
+TALUS_OF_ANTICIPATED(void)::add(const Encounter& pair, std::span<const ContactPoint<Dim>> points) {
     const bool compound =
-        a.shape.kind() == ShapeKind::compound || b.shape.kind() == ShapeKind::compound;
-    const auto children = [&](const ContactPoint<Dim>& c) {
-        return compound ? std::pair(c.feature.code >> 52, c.feature.code >> 20 & 0xfff)
-                        : std::pair<std::uint64_t, std::uint64_t>{};
+        pair.shape_a.kind() == ShapeKind::compound || pair.shape_b.kind() == ShapeKind::compound;
+    // A routine of one's own may serve a compound as a whole.
+    const bool whole = !compound || std::ranges::any_of(pair.own, [&](const OwnPair<Dim>& own) {
+        return (own.a == pair.shape_a.access && own.b == pair.shape_b.access) ||
+               (own.a == pair.shape_b.access && own.b == pair.shape_a.access);
+    });
+    if (whole) {
+        add_parts(pair, points);
+        return;
+    }
+    const auto children = [](const ContactPoint<Dim>& c) {
+        return std::pair(c.feature.code >> 52, c.feature.code >> 20 & 0xfff);
     };
-    result_.clear();
     for (auto first = points.begin(); first != points.end();) {
         const auto last = std::find_if(first, points.end(), [&](const ContactPoint<Dim>& c) {
             return children(c) != children(*first);
         });
-        const std::span<const ContactPoint<Dim>> present(first, last);
-        const auto [child_a, child_b] = children(*first);
-        const std::size_t kept = result_.size();
-        const MovingShape<Dim> part_a = part(a, child_a), part_b = part(b, child_b);
-        if (!part_a.foreseeable() || !part_b.foreseeable() || !part_a.shape.access->support ||
-            !part_b.shape.access->support || !(part_a.has_faces() || part_b.has_faces()) ||
-            !concern(present, tolerance, reach, a.pose, a.motion, b.pose, b.motion))
-            result_.insert(result_.end(), first, last);
-        else
-            Passage<Dim>(part_a, part_b, own, by_support, tolerance, reach, near_)
-                .append(present, result_);
-        for (ContactPoint<Dim>& c : std::span(result_).subspan(kept)) {
-            c.feature = with_child_of_a(c.feature, static_cast<std::uint32_t>(child_a));
-            c.feature = with_child_of_b(c.feature, static_cast<std::uint32_t>(child_b));
-        }
+        Encounter part = pair;
+        std::tie(part.child_a, part.child_b) = children(*first);
+        if (pair.shape_a.kind() == ShapeKind::compound)
+            part.shape_a = pair.shape_a.child(part.child_a);
+        if (pair.shape_b.kind() == ShapeKind::compound)
+            part.shape_b = pair.shape_b.child(part.child_b);
+        add_parts(part, {first, last});
         first = last;
     }
-    points.swap(result_);
 }
+
+TALUS_OF_ANTICIPATED(void)::add_parts(const Encounter& pair,
+                                      std::span<const ContactPoint<Dim>> points) {
+    Encounter e = pair;
+    e.first = found_.size();
+    e.count = points.size();
+    found_.insert(found_.end(), points.begin(), points.end());
+    e.kept_first = e.first;
+    e.kept_count = e.count;
+    if (concerns(e) && has_sides(e)) {
+        judge(e);
+        if (e.meeting.disputed) disputed_.push_back(encounters_.size());
+    }
+    encounters_.push_back(e);
+}
+
+TALUS_OF_ANTICIPATED(bool)::concerns(const Encounter& e) const {
+    const auto a = static_cast<std::size_t>(e.a), b = static_cast<std::size_t>(e.b);
+    return std::ranges::any_of(nearest_of(e), [&](const ContactPoint<Dim>& c) {
+        const Vector<Dim> change = motion_.motion(e.a).at(c.point - bodies_->position[a]) -
+                                   motion_.motion(e.b).at(c.point - bodies_->position[b]);
+        const double way = Foresight::steps * c.normal.dot(change);
+        return c.gap > tolerance_ ? c.gap + way < 0.0 : way < -least_approach * e.reach;
+    });
+}
+
+TALUS_OF_ANTICIPATED(bool)::has_sides(const Encounter& e) const {
+    return e.shape_a.access->support && e.shape_b.access->support &&
+           (e.shape_a.kind() == ShapeKind::core || e.shape_b.kind() == ShapeKind::core) &&
+           moving(e.a, e.shape_a).foreseeable() && moving(e.b, e.shape_b).foreseeable();
+}
+
+TALUS_OF_ANTICIPATED(void)::judge(Encounter& e) {
+    result_.clear();
+    const MovingShape<Dim> a = moving(e.a, e.shape_a), b = moving(e.b, e.shape_b);
+    e.meeting = Passage<Dim>(a, b, e.own, e.by_support, tolerance_, e.reach, near_)
+                    .append(nearest_of(e), result_);
+    if (!e.meeting.disputed) return;
+    for (ContactPoint<Dim>& c : result_) {
+        c.feature = with_child_of_a(c.feature, e.child_a);
+        c.feature = with_child_of_b(c.feature, e.child_b);
+    }
+    e.kept_first = found_.size();
+    e.kept_count = result_.size();
+    found_.insert(found_.end(), result_.begin(), result_.end());
+}
+
+/// True if the bodies' motion is to change for that.
+TALUS_OF_ANTICIPATED(bool)::hold_up_bodies(const Encounter& e) {
+    bool changes = false;
+    for (const ContactPoint<Dim>& c : kept_of(e))
+        changes |= motion_.add(e.a, e.b, c, least_approach * e.reach);
+    return changes;
+}
+
+TALUS_OF_ANTICIPATED(void)::decide_disputes() {
+    in_dispute_.assign(bodies_->count(), false);
+    for (const std::size_t k : disputed_)
+        for (const BodyIndex i : {encounters_[k].a, encounters_[k].b})
+            if (motion_.is_free(i)) in_dispute_[static_cast<std::size_t>(i)] = true;
+    for (const Encounter& e : encounters_)
+        if (!e.meeting.disputed && (in_dispute_[static_cast<std::size_t>(e.a)] ||
+                                    in_dispute_[static_cast<std::size_t>(e.b)]))
+            hold_up_bodies(e);
+    for (std::size_t i = 0; i < in_dispute_.size(); ++i)
+        if (in_dispute_[i]) motion_.settle(static_cast<BodyIndex>(i));
+    std::ranges::sort(disputed_, {},
+                      [&](std::size_t k) { return std::pair(encounters_[k].meeting.after, k); });
+    for (const std::size_t k : disputed_) {
+        Encounter& e = encounters_[k];
+        if (motion_.is_changed(e.a) || motion_.is_changed(e.b)) {
+            e.kept_first = e.first;
+            e.kept_count = e.count;
+            if (concerns(e) && has_sides(e)) judge(e);
+        }
+        if (!hold_up_bodies(e)) continue;
+        for (const BodyIndex i : {e.a, e.b})
+            if (motion_.is_free(i)) motion_.settle(i);
+    }
+}
+
+TALUS_OF_ANTICIPATED(void)::finish(ContactSet<Dim>& contacts) {
+    if (!disputed_.empty()) decide_disputes();
+    for (auto e = encounters_.begin(); e != encounters_.end();) {
+        const BodyIndex a = e->a, b = e->b;
+        result_.clear();
+        for (; e != encounters_.end() && e->a == a && e->b == b; ++e)
+            result_.insert(result_.end(), kept_of(*e).begin(), kept_of(*e).end());
+        std::ranges::sort(result_, {}, &ContactPoint<Dim>::feature);
+        for (const ContactPoint<Dim>& point : result_) contacts.push_back(a, b, point);
+    }
+}
+
+#undef TALUS_OF_ANTICIPATED
 
 }  // namespace talus
 

@@ -36,25 +36,24 @@ class ContactDetection {
             version_ = version;
         }
         contacts.clear();
-        if (!motion.empty()) {
-            constexpr std::size_t usual = 64;  // contacts of one pair
-            points_.reserve(usual);
-            anticipated_.reserve(usual);
-        }
+        if (!motion.empty()) anticipated_.begin(bodies, motion, tolerance);
         for (const CandidatePair& pair : candidates_) {
             const auto a = static_cast<std::size_t>(pair.a);
             const auto b = static_cast<std::size_t>(pair.b);
             points_.clear();
             contact_points<Dim>(shapes[a], bodies.pose(a), shapes[b], bodies.pose(b),
                                 reach[a] + reach[b], points_);
-            if (!motion.empty() && !points_.empty())
-                anticipate<Dim>(shapes[a], bodies.pose(a), motion[a], shapes[b], bodies.pose(b),
-                                motion[b], tolerance, reach[a] + reach[b], anticipated_, points_);
+            if (!motion.empty()) {
+                anticipated_.add(pair.a, shapes[a], pair.b, shapes[b], reach[a] + reach[b],
+                                 std::span<const ContactPoint<Dim>>(points_));
+                continue;
+            }
             std::sort(points_.begin(), points_.end(),
                       [](const auto& x, const auto& y) { return x.feature < y.feature; });
             for (const ContactPoint<Dim>& point : points_)
                 contacts.push_back(pair.a, pair.b, point);
         }
+        if (!motion.empty()) anticipated_.finish(contacts);
     }
 
     std::span<const CandidatePair> candidates() const { return candidates_; }

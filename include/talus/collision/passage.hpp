@@ -28,9 +28,6 @@ struct MovingShape {
                !(shape.kind() == ShapeKind::ball &&
                  shape.template as<Ball<Dim>>().centre().isZero(0.0));
     }
-    bool has_faces() const {
-        return shape.kind() == ShapeKind::core && shape.core().face_count() > 0;
-    }
     /// Whether it turns little enough for where it gets to be foreseen.
     bool foreseeable() const;
     /// After `steps` such steps.
@@ -44,12 +41,6 @@ struct MovingShape {
     Vector<Dim> foremost(const Vector<Dim>& d, const Pose<Dim>& placed) const {
         return placed.point_world(shape.support(placed.rotation.transpose_times(d)));
     }
-    /// Radius of a ball that holds the shape [m].
-    double bound() const {
-        if (shape.has_core()) return shape.core().bound;
-        const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
-        return 0.5 * (box.high - box.low).norm();
-    }
 };
 
 /// How far from now contacts look, and what they overlook.
@@ -59,7 +50,7 @@ struct Foresight {
     static constexpr double steps = 2.0;
     /// Turn of a body in one step beyond which its motion is not followed [rad]: contacts then are
     /// those at the nearest points.
-    static constexpr double most_turn = 0.2;
+    static constexpr double most_turn = 1.0;
     /// Overlap along an axis that does not keep it from separating, in units of the smaller
     /// bounding radius: more than resting bodies overlap, less than anyone looks at [-].
     static constexpr double slack = 1e-3;
@@ -74,6 +65,12 @@ template <int Dim>
 bool MovingShape<Dim>::foreseeable() const {
     return !turns() || motion.angular.norm() <= Foresight::most_turn;
 }
+
+/// What was found out about two bodies that approach each other.
+struct Meeting {
+    bool disputed = false;  ///< there is more than one side that they might meet by
+    double after = std::numeric_limits<double>::infinity();  ///< never, or so many steps from now
+};
 
 /// The side by which two convex bodies, now apart, can meet in a step.
 ///
@@ -101,7 +98,7 @@ class Passage {
 
     /// Appends to `out` the contacts to keep in place of those at the nearest points, `present`:
     /// perhaps none.
-    void append(std::span<const ContactPoint<Dim>> present, std::vector<ContactPoint<Dim>>& out);
+    Meeting append(std::span<const ContactPoint<Dim>> present, std::vector<ContactPoint<Dim>>& out);
 
   private:
     struct Axis {
@@ -122,27 +119,36 @@ class Passage {
         return n.dot(m.foremost(n, m.pose) - m.foremost(-n, m.pose));
     }
     double slack(const Vector<Dim>& n) const;
-    Axis measured(const Vector<Dim>& n) const;
+    void look_ahead();
+    Axis measured(const Vector<Dim>& n);
     bool better(const Axis& x, const Axis& than) const;
     /// Finds the contacts with the bodies so far ahead, A shifted; null if they are too far apart.
     const ContactPoint<Dim>* look(double steps, const Vector<Dim>& shift);
-    void try_faces(const MovingShape<Dim>& m, double sign, Axis& best) const;
+    static CoreView<Dim> core_of(const ShapeView<Dim>& shape);
+    void find_faces(const MovingShape<Dim>& m, const CoreView<Dim>& core, double sign,
+                    std::span<const ContactPoint<Dim>> present);
     Outcome advance(Axis& best);
     bool find_place_along(const Axis& axis);
-    Axis across(const Axis& lost, const Axis& gained) const;
+    Axis across(const Axis& lost, const Axis& gained);
     ContactPoint<Dim> brought_back(const ContactPoint<Dim>& point) const;
     ContactPoint<Dim> of_foremost_points(FeatureId feature, const Axis& axis) const;
     void append_near(double least_gap, std::vector<ContactPoint<Dim>>& out);
 
     const MovingShape<Dim>&a_, &b_;
-    std::array<Pose<Dim>, 2> one_ahead_, all_ahead_;
+    CoreView<Dim> core_a_, core_b_;
     std::span<const OwnPair<Dim>> own_;
     SupportRoutine<Dim> by_support_;
     double tolerance_, reach_, size_;
+    double most_slack_;  ///< [m]
     bool turning_;
+    bool others_ = false;  ///< an axis other than that of the nearest points qualifies
+    Vector<Dim> nearest_ = Vector<Dim>::Zero();  ///< normal at the nearest points
+    Axis best_other_ = {};                       ///< of the faces
     std::vector<ContactPoint<Dim>>& near_;
     double seen_at_ = 0.0;                     ///< where `near_` is from [steps]
     Vector<Dim> shift_ = Vector<Dim>::Zero();  ///< of A, there [m]
+    std::array<Pose<Dim>, 2> one_ahead_, all_ahead_;
+    bool looked_ahead_ = false;  ///< the poses ahead are known
 };
 
 #define TALUS_OF_PASSAGE(...) \
@@ -154,27 +160,44 @@ TALUS_OF_PASSAGE()::Passage(const MovingShape<Dim>& a, const MovingShape<Dim>& b
                             double tolerance, double reach, std::vector<ContactPoint<Dim>>& near)
     : a_(a),
       b_(b),
-      one_ahead_{a.pose_after(1.0), b.pose_after(1.0)},
-      all_ahead_{a.pose_after(Foresight::steps), b.pose_after(Foresight::steps)},
+      core_a_(core_of(a.shape)),
+      core_b_(core_of(b.shape)),
       own_(own),
       by_support_(by_support),
       tolerance_(tolerance),
       reach_(reach),
-      size_(std::min(a.bound(), b.bound())),
+      size_(std::min(core_a_.bound, core_b_.bound)),
+      most_slack_(tolerance + Foresight::slack * size_),
       turning_(a.turns() || b.turns()),
       near_(near) {}
 
-TALUS_OF_PASSAGE(double)::slack(const Vector<Dim>& n) const {
-    return std::min(tolerance_ + Foresight::slack * size_,
-                    Foresight::slack_of_width * std::min(width(a_, n), width(b_, n)));
+/// That of a shape known by its support alone has nothing but the bound.
+TALUS_OF_PASSAGE(CoreView<Dim>)::core_of(const ShapeView<Dim>& shape) {
+    if (shape.has_core()) return shape.core();
+    const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
+    CoreView<Dim> core{};
+    core.bound = 0.5 * (box.high - box.low).norm();
+    return core;
 }
 
-TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::measured(const Vector<Dim>& n) const {
+TALUS_OF_PASSAGE(double)::slack(const Vector<Dim>& n) const {
+    return std::min(most_slack_, Foresight::slack_of_width * std::min(width(a_, n), width(b_, n)));
+}
+
+TALUS_OF_PASSAGE(void)::look_ahead() {
+    if (looked_ahead_) return;
+    one_ahead_ = {a_.pose_after(1.0), b_.pose_after(1.0)};
+    all_ahead_ = {a_.pose_after(Foresight::steps), b_.pose_after(Foresight::steps)};
+    looked_ahead_ = true;
+}
+
+TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::measured(const Vector<Dim>& n) {
     Axis axis{n, separation(n, a_.pose, b_.pose), 0.0, 0.0, 0.0};
-    if (axis.now < -(tolerance_ + Foresight::slack * size_)) return axis;
+    if (axis.now < -most_slack_) return axis;
     const double slack = this->slack(n);
     if (axis.now < -slack) return axis;
     if (turning_) {
+        look_ahead();
         axis.next = separation(n, one_ahead_[0], one_ahead_[1]);
         axis.last = separation(n, all_ahead_[0], all_ahead_[1]);
     } else {
@@ -211,11 +234,29 @@ TALUS_OF_PASSAGE(const ContactPoint<Dim>*)::look(double steps, const Vector<Dim>
     return &*std::ranges::min_element(near_, {}, &ContactPoint<Dim>::gap);
 }
 
-TALUS_OF_PASSAGE(void)::try_faces(const MovingShape<Dim>& m, double sign, Axis& best) const {
-    if (!m.has_faces()) return;
-    for (const Vector<Dim>& normal : m.shape.core().normals) {
-        const Axis axis = measured(Vector<Dim>(sign * (m.pose.rotation * normal)));
-        if (better(axis, best)) best = axis;
+/// Notes the faces that the other body's part in every present contact is beyond, as all of it is
+/// if the face separates: this rules out most faces at little cost.
+TALUS_OF_PASSAGE(void)::find_faces(const MovingShape<Dim>& m, const CoreView<Dim>& core,
+                                   double sign, std::span<const ContactPoint<Dim>> present) {
+    const auto of_other = [&](const ContactPoint<Dim>& c) {
+        return m.pose.point_body(c.point + 0.5 * sign * c.gap * c.normal);
+    };
+    const auto try_face = [&](std::size_t f, const Vector<Dim>& point) {
+        return core.normals[f].dot(point) >=
+               core.offsets[f] + core.radius - most_slack_ - 1e-6 * size_;
+    };
+    const Vector<Dim> nearest = m.pose.rotation.transpose_times(nearest_);
+    const Vector<Dim> first = of_other(present.front());
+    for (std::size_t f = 0; f < core.face_count(); ++f) {
+        if (!try_face(f, first) && own_.empty()) continue;
+        if (sign * core.normals[f].dot(nearest) > 1.0 - 1e-12) continue;
+        if (own_.empty() && !std::ranges::all_of(present.subspan(1), [&](const auto& c) {
+                return try_face(f, of_other(c));
+            }))
+            continue;
+        const Axis axis = measured(Vector<Dim>(sign * (m.pose.rotation * core.normals[f])));
+        others_ |= axis.qualifies();
+        if (better(axis, best_other_)) best_other_ = axis;
     }
 }
 
@@ -251,7 +292,8 @@ TALUS_OF_PASSAGE(bool)::find_place_along(const Axis& axis) {
 /// The positive combination of two axes whose separation the motion does not change. Where the one
 /// is lost the other separates, and so does what is between them; and across the motion it did so
 /// before and will do so afterwards.
-TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::across(const Axis& lost, const Axis& gained) const {
+TALUS_OF_PASSAGE(typename Passage<Dim>::Axis)::across(const Axis& lost, const Axis& gained) {
+    look_ahead();
     const auto change = [&](const Vector<Dim>& n) {
         return separation(n, one_ahead_[0], one_ahead_[1]) - separation(n, a_.pose, b_.pose);
     };
@@ -296,33 +338,45 @@ TALUS_OF_PASSAGE(void)::append_near(double least_gap, std::vector<ContactPoint<D
         if (point.gap <= limit) out.push_back(point);
 }
 
-TALUS_OF_PASSAGE(void)::append(std::span<const ContactPoint<Dim>> present,
-                               std::vector<ContactPoint<Dim>>& out) {
+TALUS_OF_PASSAGE(Meeting)::append(std::span<const ContactPoint<Dim>> present,
+                                  std::vector<ContactPoint<Dim>>& out) {
     const auto nearest = std::ranges::min_element(present, {}, &ContactPoint<Dim>::gap);
     const bool closed = nearest->gap <= tolerance_;
-    Axis best = measured(nearest->normal);
-    try_faces(a_, -1.0, best);
-    try_faces(b_, 1.0, best);
+    nearest_ = nearest->normal;
+    if (core_a_.face_count() + core_b_.face_count() == 0) {
+        out.insert(out.end(), present.begin(), present.end());
+        return {};
+    }
+    find_faces(a_, core_a_, -1.0, present);
+    find_faces(b_, core_b_, 1.0, present);
+    if (!others_ && nearest->gap <= most_slack_) {
+        out.insert(out.end(), present.begin(), present.end());
+        return {};
+    }
+    Axis best = measured(nearest_);
+    if (better(best_other_, best)) best = best_other_;
     Outcome outcome = best.held() ? Outcome::held : Outcome::meet;
     if (!closed && !best.held()) outcome = advance(best);
-    const bool is_first = best.normal.dot(nearest->normal) > 1.0 - 1e-12;
+    const bool is_first = best.normal.dot(nearest_) > 1.0 - 1e-12;
+    const Meeting meeting{others_ || !is_first, best.lost};
     // A closed contact keeps bodies apart now, unless another axis does so all the way; and the
     // corners of bodies that touch within the slack are no places to pass.
     const bool stays =
         outcome == Outcome::pass ? !best.held() : is_first || (closed && outcome == Outcome::meet);
     if (stays) {
         out.insert(out.end(), present.begin(), present.end());
-        return;
+        return meeting;
     }
     if (outcome == Outcome::pass)
         near_.assign(1, of_foremost_points(nearest->feature, best));
     else if (outcome == Outcome::held && !find_place_along(best))
-        return;
+        return meeting;
     else
         for (ContactPoint<Dim>& point : near_) point = brought_back(point);
     append_near(
         closed ? nearest->gap : std::nextafter(tolerance_, std::numeric_limits<double>::infinity()),
         out);
+    return meeting;
 }
 
 #undef TALUS_OF_PASSAGE
