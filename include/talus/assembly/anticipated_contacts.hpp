@@ -103,6 +103,9 @@ TALUS_OF_ANTICIPATED(void)::begin(const Bodies<Dim>& bodies, std::span<const Twi
     constexpr std::size_t usual = 64;  // contacts of one pair
     near_.reserve(usual);
     result_.reserve(usual);
+    encounters_.reserve(usual);
+    disputed_.reserve(usual);
+    found_.reserve(4 * usual);
     bodies_ = &bodies;
     tolerance_ = tolerance;
     motion_.begin(bodies, motion);

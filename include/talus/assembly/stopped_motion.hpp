@@ -33,6 +33,7 @@ class StoppedMotion {
         newest_.assign(bodies.count(), none);
         changed_.assign(bodies.count(), false);
         stops_.clear();
+        stops_.reserve(256);  // of a few bodies
     }
     /// The contact is to hold up its bodies from the next `settle` on. Displacements below `noise`
     /// [m] do not matter. True if it has to.
