@@ -106,6 +106,7 @@ TALUS_OF_ANTICIPATED(void)::begin(const Bodies<Dim>& bodies, std::span<const Twi
     encounters_.reserve(usual);
     disputed_.reserve(usual);
     found_.reserve(4 * usual);
+    in_dispute_.assign(bodies.count(), false);
     bodies_ = &bodies;
     tolerance_ = tolerance;
     motion_.begin(bodies, motion);
@@ -203,7 +204,6 @@ TALUS_OF_ANTICIPATED(bool)::hold_up_bodies(const Encounter& e) {
 }
 
 TALUS_OF_ANTICIPATED(void)::decide_disputes() {
-    in_dispute_.assign(bodies_->count(), false);
     for (const std::size_t k : disputed_)
         for (const BodyIndex i : {encounters_[k].a, encounters_[k].b})
             if (motion_.is_free(i)) in_dispute_[static_cast<std::size_t>(i)] = true;
