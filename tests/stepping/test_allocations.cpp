@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A steady step allocates nothing. Counts every operator new of this program.
+#include <talus/geometry/box.hpp>
+
 #include <boost/test/unit_test.hpp>
 
 #include "common/allocation_counter.hpp"
@@ -29,6 +31,31 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_steady_step_allocates_nothing, D, dimensions) {
         BOOST_CHECK_EQUAL(allocation_count - before, 0);
         BOOST_CHECK_GT(sim.data().contact_count(), 20u);
     }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(sliding_over_seams_allocates_nothing, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::SimulationParams params{.h = 1e-3};
+    params.step.scheme = talus::Scheme::gap_anticipating;
+    params.step.contact_tolerance = touching;
+    talus::Simulation<Dim> sim(law<Dim>(0.1), params);
+    sim.system().gravity = -g * up<Dim>();
+    const talus::Box<Dim> cube(V<Dim>::Constant(0.05));
+    for (int i = 0; i < 20; ++i)
+        sim.system().add_obstacle(cube, talus::Pose<Dim>{in_plane<Dim>(0.1 * i, -0.05), {}});
+    sim.system().add(cube, 1000.0, {in_plane<Dim>(0.0131, 0.05), {}}, {in_plane<Dim>(2.0, 0.0)});
+    // Boxes over seams have now more, now fewer contacts: only more than ever need room.
+    std::size_t most = 0, allocating = 0;
+    long before = allocation_count;
+    const auto run = sim.run(0.6, [&](const auto& s) {
+        const std::size_t count = s.data().contact_count();
+        const bool settled = s.time() > 0.3 && count <= most;
+        allocating += settled && allocation_count != before;
+        most = std::max(most, count);
+        before = allocation_count;
+    });
+    BOOST_TEST(run.steps > 0);
+    BOOST_CHECK_EQUAL(allocating, 0u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/assembly/anticipated_contacts.hpp>
 #include <talus/collision/concepts.hpp>
 #include <talus/collision/contact_set.hpp>
 #include <talus/collision/narrow_phase.hpp>
@@ -24,27 +25,35 @@ class ContactDetection {
     /// Finds every contact with gap <= reach[a] + reach[b]. `radius[i]` bounds body i about its
     /// centre, infinite for unbounded shapes; `skin` is the widening of new boxes: a larger one
     /// gives more candidates, kept for longer. All in [m]. `version` is another number whenever
-    /// some shape is another.
+    /// some shape is another. If `motion` is given, of each body over one step [m, rad], contacts
+    /// of gap > `tolerance` are those that it leads to (anticipated_contacts.hpp).
     void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, std::uint64_t version,
                 std::span<const double> radius, double skin, std::span<const double> reach,
-                ContactSet<Dim>& contacts) {
+                std::span<const Twist<Dim>> motion, double tolerance, ContactSet<Dim>& contacts) {
         if (version != version_ || left_a_box(bodies, radius, reach)) {
             box_.clear();  // so that a failure on the way leaves nothing that looks found
             find_candidates(bodies, shapes, skin, reach);
             version_ = version;
         }
         contacts.clear();
+        if (!motion.empty()) anticipated_.begin(bodies, motion, tolerance);
         for (const CandidatePair& pair : candidates_) {
             const auto a = static_cast<std::size_t>(pair.a);
             const auto b = static_cast<std::size_t>(pair.b);
             points_.clear();
             contact_points<Dim>(shapes[a], bodies.pose(a), shapes[b], bodies.pose(b),
                                 reach[a] + reach[b], points_);
+            if (!motion.empty()) {
+                anticipated_.add(pair.a, shapes[a], pair.b, shapes[b], reach[a] + reach[b],
+                                 std::span<const ContactPoint<Dim>>(points_));
+                continue;
+            }
             std::sort(points_.begin(), points_.end(),
                       [](const auto& x, const auto& y) { return x.feature < y.feature; });
             for (const ContactPoint<Dim>& point : points_)
                 contacts.push_back(pair.a, pair.b, point);
         }
+        if (!motion.empty()) anticipated_.finish(contacts);
     }
 
     std::span<const CandidatePair> candidates() const { return candidates_; }
@@ -91,6 +100,7 @@ class ContactDetection {
     std::uint64_t version_ = 0;            // of the shapes
     std::vector<CandidatePair> candidates_;
     std::vector<ContactPoint<Dim>> points_;
+    AnticipatedContacts<Dim> anticipated_;
 };
 
 }  // namespace talus

@@ -25,8 +25,12 @@ void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodie
         jacobian.b[c] = b;
         jacobian.frame[c] = local_frame<Dim>(contacts.normal[c]);
         const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-        const double half = bodies.is_obstacle(i) || bodies.is_obstacle(j) ? 0.5 : 0.0;
-        const Vector<Dim> to_surface = half * contacts.gap[c] * contacts.normal[c];
+        // Where bodies are foreseen to slide, ends are those of the place where they will touch.
+        const bool meets_here = contacts.slide[c].isZero(0.0);
+        const double half =
+            meets_here && (bodies.is_obstacle(i) || bodies.is_obstacle(j)) ? 0.5 : 0.0;
+        const Vector<Dim> to_surface =
+            half * contacts.gap[c] * contacts.normal[c] - 0.5 * contacts.slide[c];
         jacobian.arm_a[c] = contacts.point[c] + to_surface - bodies.position[i];
         jacobian.arm_b[c] = contacts.point[c] - to_surface - bodies.position[j];
     }

@@ -19,6 +19,9 @@ struct ContactPoint {
     Vector<Dim> normal = Vector<Dim>::Zero();  ///< unit, world axes, from B towards A
     double gap = 0.0;                          ///< signed distance along the normal [m]
     FeatureId feature = {};                    ///< touching features, of A first
+    /// How far A is to go past B before they touch at this place, zero for bodies seen as they
+    /// stand: the arm of A then ends at point - slide / 2, that of B at point + slide / 2 [m].
+    Vector<Dim> slide = Vector<Dim>::Zero();
 };
 
 }  // namespace talus

@@ -17,6 +17,7 @@ struct ContactSet {
     std::vector<Vector<Dim>> point;   ///< [m]
     std::vector<Vector<Dim>> normal;  ///< unit, from b towards a
     std::vector<double> gap;          ///< [m]
+    std::vector<Vector<Dim>> slide;   ///< of a past b until they touch there [m]
 
     std::size_t count() const { return key.size(); }
     void clear() {
@@ -24,12 +25,14 @@ struct ContactSet {
         point.clear();
         normal.clear();
         gap.clear();
+        slide.clear();
     }
     void push_back(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& c) {
         key.push_back({a, b, c.feature});
         point.push_back(c.point);
         normal.push_back(c.normal);
         gap.push_back(c.gap);
+        slide.push_back(c.slide);
     }
     /// Keeps, in their order, the contacts c for which `keep(c)` holds.
     template <class Keep>
@@ -41,12 +44,14 @@ struct ContactSet {
             point[kept] = point[c];
             normal[kept] = normal[c];
             gap[kept] = gap[c];
+            slide[kept] = slide[c];
             ++kept;
         }
         key.resize(kept);
         point.resize(kept);
         normal.resize(kept);
         gap.resize(kept);
+        slide.resize(kept);
     }
 };
 

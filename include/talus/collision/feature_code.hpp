@@ -45,6 +45,7 @@ template <int Dim>
 void mirror(std::span<ContactPoint<Dim>> contacts) {
     for (ContactPoint<Dim>& c : contacts) {
         c.normal = -c.normal;
+        c.slide = -c.slide;
         c.feature = mirrored(c.feature);
     }
 }

@@ -27,6 +27,9 @@ double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bound
 /// What a gap adds to the normal velocity that the law sees: consecutive midpoints differ by h
 /// u_end, so `g/h + u_n >= 0` keeps the next midpoint free of overlap to first order [m/s]. An
 /// overlap adds nothing: it is not pushed out, so that no energy is made.
+/// Of the planes that separate two bodies the motion tells which one to keep, the one that it
+/// leaves last (collision/passage.hpp): the normal of the nearest points would stop a body also at
+/// sides that it slides past, as at the edge of the next tile of a flush floor.
 inline double anticipated_velocity(double gap, double h) { return std::max(gap, 0.0) / h; }
 
 /// Whether a law bounces: its contacts are not anticipated, since stopping a body short of the

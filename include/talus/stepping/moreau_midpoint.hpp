@@ -109,6 +109,7 @@ class MoreauMidpoint {
     KeptState<Dim> before_;
     bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
     std::vector<double> reach_;
+    std::vector<Twist<Dim>> motion_;  // over one step; empty where nothing is anticipated
     double last_h_ = 0.0, h_before_ = 0.0, time_before_ = 0.0;
     [[no_unique_address]] Hooks hooks_;
 };
@@ -191,13 +192,16 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
 TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& data) {
     const std::size_t n = system.bodies.count();
     reach_.assign(n, 0.5 * params.contact_tolerance);
+    motion_.clear();
     if (params.scheme == Scheme::gap_anticipating)
-        for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t i = 0; i < n; ++i) {
             reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
                                                  system.gravity, data.h);
+            motion_.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
+        }
     detection_.detect(system.bodies, system.shapes(), system.shapes_version(),
                       system.bounding_radius(), params.skin * system.mean_bounding_radius(), reach_,
-                      data.contacts);
+                      motion_, params.contact_tolerance, data.contacts);
     if (params.scheme == Scheme::gap_anticipating)
         data.contacts.keep_if([&](std::size_t c) {
             return data.contacts.gap[c] <= params.contact_tolerance ||

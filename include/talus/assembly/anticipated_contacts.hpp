@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/assembly/stopped_motion.hpp>
+#include <talus/collision/contact_set.hpp>
+#include <talus/collision/passage.hpp>
+#include <talus/core/instantiate.hpp>
+#include <talus/dynamics/bodies.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace talus {
+
+/// Contacts of bodies that are apart, by what their motion will make of them (see Passage).
+///
+/// Which side two bodies meet depends on what else is in the way: the floor under a body that lands
+/// keeps it from the sides of the tiles. So contacts of pairs that can meet across one side alone,
+/// which are what they are, hold up their bodies first (StoppedMotion); then the others are decided
+/// on, in the order in which they would meet, each by the motion that those before have left.
+template <int Dim>
+requires SpaceDimension<Dim>
+class AnticipatedContacts {
+  public:
+    /// Starts a step; `motion` is that of each body over one step [m, rad].
+    void begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> motion, double tolerance);
+
+    /// Takes `points`, what the narrow phase found for bodies a and b up to the gap `reach` [m].
+    /// Pairs come in their order.
+    template <class A, class B>
+    requires CanMeet<A, B, Dim>
+    void add(BodyIndex a, const A& shape_a, BodyIndex b, const B& shape_b, double reach,
+             std::span<const ContactPoint<Dim>> points) {
+        if (!points.empty())
+            add({a, b, view_of<Dim>(shape_a), view_of<Dim>(shape_b), detail::own_pairs<Dim, A, B>,
+                 detail::support_routine<Dim, A, B>(), reach},
+                points);
+    }
+
+    /// Appends the contacts of all pairs, sorted. In the place of those that the motion would close
+    /// are the ones that it leads to. Those of half-spaces, which have one normal alone, of two
+    /// shapes without faces and of shapes without a support mapping stay. What takes the place of
+    /// open contacts, of gap > tolerance, is open.
+    void finish(ContactSet<Dim>& contacts);
+
+  private:
+    /// Two convex parts of bodies, and where their contacts are in `found_`.
+    struct Encounter {
+        BodyIndex a, b;
+        ShapeView<Dim> shape_a, shape_b;
+        std::span<const OwnPair<Dim>> own;
+        SupportRoutine<Dim> by_support;
+        double reach;
+        std::uint32_t child_a = 0, child_b = 0;
+        std::size_t first = 0, count = 0;            ///< contacts at the nearest points
+        std::size_t kept_first = 0, kept_count = 0;  ///< contacts to keep
+        Meeting meeting = {};
+    };
+
+    void add(const Encounter& pair, std::span<const ContactPoint<Dim>> points);
+    void add_parts(const Encounter& pair, std::span<const ContactPoint<Dim>> points);
+    /// Approaches of less are noise of bodies at rest, in units of the reach [-].
+    static constexpr double least_approach = 1e-3;
+    /// Whether the foreseen motion would close some contact, or closes one further: else they are
+    /// good as they are. Closed are those of gap <= tolerance.
+    bool concerns(const Encounter& e) const;
+    bool has_sides(const Encounter& e) const;
+    /// Looks for the contacts that the motion as now known leads to.
+    void judge(Encounter& e);
+    bool hold_up_bodies(const Encounter& e);
+    void decide_disputes();
+
+    std::span<const ContactPoint<Dim>> nearest_of(const Encounter& e) const {
+        return std::span(found_).subspan(e.first, e.count);
+    }
+    std::span<const ContactPoint<Dim>> kept_of(const Encounter& e) const {
+        return std::span(found_).subspan(e.kept_first, e.kept_count);
+    }
+    MovingShape<Dim> moving(BodyIndex i, const ShapeView<Dim>& shape) const;
+
+    const Bodies<Dim>* bodies_ = nullptr;
+    double tolerance_ = 0.0;
+    StoppedMotion<Dim> motion_;
+    std::vector<Encounter> encounters_;
+    std::vector<std::size_t> disputed_;     // encounters
+    std::vector<bool> in_dispute_;          // bodies
+    std::vector<ContactPoint<Dim>> found_;  // by encounter; disputed ones also in the end
+    std::vector<ContactPoint<Dim>> near_, result_;
+};
+
+#define TALUS_OF_ANTICIPATED(...) \
+    template <int Dim>            \
+    requires SpaceDimension<Dim> __VA_ARGS__ AnticipatedContacts<Dim>
+
+TALUS_OF_ANTICIPATED(void)::begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> motion,
+                                  double tolerance) {
+    constexpr std::size_t usual = 64;  // contacts of one pair
+    near_.reserve(usual);
+    result_.reserve(usual);
+    encounters_.reserve(usual);
+    disputed_.reserve(usual);
+    found_.reserve(4 * usual);
+    in_dispute_.assign(bodies.count(), false);
+    bodies_ = &bodies;
+    tolerance_ = tolerance;
+    motion_.begin(bodies, motion);
+    encounters_.clear();
+    disputed_.clear();
+    found_.clear();
+}
+
+TALUS_OF_ANTICIPATED(MovingShape<Dim>)::moving(BodyIndex i, const ShapeView<Dim>& shape) const {
+    return {shape, bodies_->pose(static_cast<std::size_t>(i)), motion_.motion(i)};
+}
+
+TALUS_OF_ANTICIPATED(void)::add(const Encounter& pair, std::span<const ContactPoint<Dim>> points) {
+    const bool compound =
+        pair.shape_a.kind() == ShapeKind::compound || pair.shape_b.kind() == ShapeKind::compound;
+    // A routine of one's own may serve a compound as a whole.
+    const bool whole = !compound || std::ranges::any_of(pair.own, [&](const OwnPair<Dim>& own) {
+        return (own.a == pair.shape_a.access && own.b == pair.shape_b.access) ||
+               (own.a == pair.shape_b.access && own.b == pair.shape_a.access);
+    });
+    if (whole) {
+        add_parts(pair, points);
+        return;
+    }
+    const auto children = [](const ContactPoint<Dim>& c) {
+        return std::pair(c.feature.code >> 52, c.feature.code >> 20 & 0xfff);
+    };
+    for (auto first = points.begin(); first != points.end();) {
+        const auto last = std::find_if(first, points.end(), [&](const ContactPoint<Dim>& c) {
+            return children(c) != children(*first);
+        });
+        Encounter part = pair;
+        std::tie(part.child_a, part.child_b) = children(*first);
+        if (pair.shape_a.kind() == ShapeKind::compound)
+            part.shape_a = pair.shape_a.child(part.child_a);
+        if (pair.shape_b.kind() == ShapeKind::compound)
+            part.shape_b = pair.shape_b.child(part.child_b);
+        add_parts(part, {first, last});
+        first = last;
+    }
+}
+
+TALUS_OF_ANTICIPATED(void)::add_parts(const Encounter& pair,
+                                      std::span<const ContactPoint<Dim>> points) {
+    Encounter e = pair;
+    e.first = found_.size();
+    e.count = points.size();
+    found_.insert(found_.end(), points.begin(), points.end());
+    e.kept_first = e.first;
+    e.kept_count = e.count;
+    if (concerns(e) && has_sides(e)) {
+        judge(e);
+        if (e.meeting.disputed) disputed_.push_back(encounters_.size());
+    }
+    encounters_.push_back(e);
+}
+
+TALUS_OF_ANTICIPATED(bool)::concerns(const Encounter& e) const {
+    const auto a = static_cast<std::size_t>(e.a), b = static_cast<std::size_t>(e.b);
+    return std::ranges::any_of(nearest_of(e), [&](const ContactPoint<Dim>& c) {
+        const Vector<Dim> change = motion_.motion(e.a).at(c.point - bodies_->position[a]) -
+                                   motion_.motion(e.b).at(c.point - bodies_->position[b]);
+        const double way = Foresight::steps * c.normal.dot(change);
+        return c.gap > tolerance_ ? c.gap + way < 0.0 : way < -least_approach * e.reach;
+    });
+}
+
+TALUS_OF_ANTICIPATED(bool)::has_sides(const Encounter& e) const {
+    return e.shape_a.access->support && e.shape_b.access->support &&
+           (e.shape_a.kind() == ShapeKind::core || e.shape_b.kind() == ShapeKind::core) &&
+           moving(e.a, e.shape_a).foreseeable() && moving(e.b, e.shape_b).foreseeable();
+}
+
+TALUS_OF_ANTICIPATED(void)::judge(Encounter& e) {
+    result_.clear();
+    const MovingShape<Dim> a = moving(e.a, e.shape_a), b = moving(e.b, e.shape_b);
+    e.meeting = Passage<Dim>(a, b, e.own, e.by_support, tolerance_, e.reach, near_)
+                    .append(nearest_of(e), result_);
+    if (!e.meeting.disputed) return;
+    for (ContactPoint<Dim>& c : result_) {
+        c.feature = with_child_of_a(c.feature, e.child_a);
+        c.feature = with_child_of_b(c.feature, e.child_b);
+    }
+    e.kept_first = found_.size();
+    e.kept_count = result_.size();
+    found_.insert(found_.end(), result_.begin(), result_.end());
+}
+
+/// True if the bodies' motion is to change for that.
+TALUS_OF_ANTICIPATED(bool)::hold_up_bodies(const Encounter& e) {
+    bool changes = false;
+    for (const ContactPoint<Dim>& c : kept_of(e))
+        changes |= motion_.add(e.a, e.b, c, least_approach * e.reach);
+    return changes;
+}
+
+TALUS_OF_ANTICIPATED(void)::decide_disputes() {
+    for (const std::size_t k : disputed_)
+        for (const BodyIndex i : {encounters_[k].a, encounters_[k].b})
+            if (motion_.is_free(i)) in_dispute_[static_cast<std::size_t>(i)] = true;
+    for (const Encounter& e : encounters_)
+        if (!e.meeting.disputed && (in_dispute_[static_cast<std::size_t>(e.a)] ||
+                                    in_dispute_[static_cast<std::size_t>(e.b)]))
+            hold_up_bodies(e);
+    for (std::size_t i = 0; i < in_dispute_.size(); ++i)
+        if (in_dispute_[i]) motion_.settle(static_cast<BodyIndex>(i));
+    std::ranges::sort(disputed_, {},
+                      [&](std::size_t k) { return std::pair(encounters_[k].meeting.after, k); });
+    for (const std::size_t k : disputed_) {
+        Encounter& e = encounters_[k];
+        if (motion_.is_changed(e.a) || motion_.is_changed(e.b)) {
+            e.kept_first = e.first;
+            e.kept_count = e.count;
+            if (concerns(e) && has_sides(e)) judge(e);
+        }
+        if (!hold_up_bodies(e)) continue;
+        for (const BodyIndex i : {e.a, e.b})
+            if (motion_.is_free(i)) motion_.settle(i);
+    }
+}
+
+TALUS_OF_ANTICIPATED(void)::finish(ContactSet<Dim>& contacts) {
+    if (!disputed_.empty()) decide_disputes();
+    for (auto e = encounters_.begin(); e != encounters_.end();) {
+        const BodyIndex a = e->a, b = e->b;
+        result_.clear();
+        for (; e != encounters_.end() && e->a == a && e->b == b; ++e)
+            result_.insert(result_.end(), kept_of(*e).begin(), kept_of(*e).end());
+        std::ranges::sort(result_, {}, &ContactPoint<Dim>::feature);
+        for (const ContactPoint<Dim>& point : result_) contacts.push_back(a, b, point);
+    }
+}
+
+#undef TALUS_OF_ANTICIPATED
+
+}  // namespace talus
+
+TALUS_IN_PLANE(class talus::AnticipatedContacts<2>)
+TALUS_IN_SPACE(class talus::AnticipatedContacts<3>)

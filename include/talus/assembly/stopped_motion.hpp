@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/collision/contact_point.hpp>
+#include <talus/collision/passage.hpp>
+#include <talus/core/instantiate.hpp>
+#include <talus/dynamics/bodies.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace talus {
+
+/// Where bodies get to in the steps that Foresight looks ahead if contacts already decided on, its
+/// stops, hold them up: without friction, without a change of their turning, and by a few sweeps
+/// alone. A guess that tells by which side others are met; what bodies really do is the solver's.
+///
+/// A body that lands on its corner will turn, and its other corners will go down; but what stops
+/// those is the same floor. With turning the guess would take the tops of its tiles for lost.
+template <int Dim>
+requires SpaceDimension<Dim>
+class StoppedMotion {
+  public:
+    /// Starts from the motion over one step as if nothing were in the way.
+    void begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> free) {
+        bodies_ = &bodies;
+        motion_.assign(free.begin(), free.end());
+        newest_.assign(bodies.count(), none);
+        changed_.assign(bodies.count(), false);
+        stops_.clear();
+        stops_.reserve(256);  // of a few bodies
+    }
+    /// The contact is to hold up its bodies from the next `settle` on. Displacements below `noise`
+    /// [m] do not matter. True if it has to.
+    bool add(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& point, double noise);
+    /// Lets all stops of the body act.
+    void settle(BodyIndex i);
+    bool is_changed(BodyIndex i) const { return changed_[static_cast<std::size_t>(i)]; }
+    const Twist<Dim>& motion(BodyIndex i) const { return motion_[static_cast<std::size_t>(i)]; }
+    bool is_free(BodyIndex i) const { return !bodies_->is_obstacle(static_cast<std::size_t>(i)); }
+
+  private:
+    static constexpr int sweeps = 4;
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    struct Stop {
+        std::array<BodyIndex, 2> body;
+        Vector<Dim> normal;
+        double turning;  ///< what the turns of both add to the distance in a step [m]
+        double least;    ///< least change of the distance in a step [m]
+        double noise;    ///< [m]
+        double push;     ///< so far [kg m]
+        std::array<std::size_t, 2> next;  ///< older stop of the same body
+    };
+    double change(const Stop& s) const {
+        return s.normal.dot(motion_[static_cast<std::size_t>(s.body[0])].linear -
+                            motion_[static_cast<std::size_t>(s.body[1])].linear) +
+               s.turning - s.least;
+    }
+    bool act(Stop& stop);
+
+    const Bodies<Dim>* bodies_ = nullptr;
+    std::vector<Twist<Dim>> motion_;
+    std::vector<std::size_t> newest_;  ///< stop of each free body
+    std::vector<bool> changed_;        ///< the body's motion is not the free one
+    std::vector<Stop> stops_;
+};
+
+template <int Dim>
+requires SpaceDimension<Dim>
+bool StoppedMotion<Dim>::add(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& point,
+                             double noise) {
+    const double least = -std::max(point.gap, 0.0) / Foresight::steps;
+    Stop stop{{a, b}, point.normal, 0.0, least, noise, 0.0, {}};
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+        const auto i = static_cast<std::size_t>(stop.body[k]);
+        const double sign = k == 0 ? 1.0 : -1.0;
+        const Vector<Dim> arm = point.point - 0.5 * sign * point.slide - bodies_->position[i];
+        stop.turning += sign * point.normal.dot(cross<Dim>(motion_[i].angular, arm));
+        if (is_free(stop.body[k])) stop.next[k] = std::exchange(newest_[i], stops_.size());
+    }
+    stops_.push_back(stop);
+    return change(stop) < -noise;
+}
+
+template <int Dim>
+requires SpaceDimension<Dim>
+bool StoppedMotion<Dim>::act(Stop& stop) {
+    const auto a = static_cast<std::size_t>(stop.body[0]);
+    const auto b = static_cast<std::size_t>(stop.body[1]);
+    const double ease_a = bodies_->inverse_mass[a], ease_b = bodies_->inverse_mass[b];
+    const double push = std::max(stop.push - change(stop) / (ease_a + ease_b), 0.0);
+    const double more = push - stop.push;
+    if (std::abs(more) * (ease_a + ease_b) <= stop.noise) return false;
+    stop.push = push;
+    changed_[a] = changed_[b] = true;
+    motion_[a].linear += more * ease_a * stop.normal;
+    motion_[b].linear -= more * ease_b * stop.normal;
+    return true;
+}
+
+template <int Dim>
+requires SpaceDimension<Dim>
+void StoppedMotion<Dim>::settle(BodyIndex i) {
+    for (int k = 0; k < sweeps; ++k) {
+        bool acted = false;
+        for (std::size_t s = newest_[static_cast<std::size_t>(i)]; s != none;) {
+            Stop& stop = stops_[s];
+            acted |= act(stop);
+            s = stop.next[stop.body[0] == i ? 0 : 1];
+        }
+        if (!acted) return;
+    }
+}
+
+}  // namespace talus
+
+TALUS_IN_PLANE(class talus::StoppedMotion<2>)
+TALUS_IN_SPACE(class talus::StoppedMotion<3>)
