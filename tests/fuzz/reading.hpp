@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/geometry/convex_polytope.hpp>
+#include <talus/geometry/coordinate_rounding.hpp>
 #include <talus/io/mesh/read_obj.hpp>
 #include <talus/io/mesh/read_stl.hpp>
 #include <talus/io/scene_file.hpp>
@@ -41,13 +42,6 @@ inline void demand_one_sentence(std::string_view complaint, std::string_view beg
     }
 }
 
-template <int Dim>
-double tolerance_of(std::span<const Vector<Dim>> points) {
-    const talus::HullOptions options;
-    return talus::detail::hull_tolerance(points, talus::detail::extent_of(points, options), options)
-        .value;
-}
-
 /// The hull of any points, or a complaint of the library's own; what there is has a positive,
 /// finite volume, holds all points and has faces of its own corners.
 template <int Dim>
@@ -63,8 +57,9 @@ void check_hull_of(const std::vector<Vector<Dim>>& points) {
         // Faces are fitted to points of few digits, so that some are outside by their rounding.
         double extent = 0.0;
         for (const auto& x : points) extent = std::max(extent, x.norm());
-        const double slack = 1e-12 * extent + 2.5 * std::max(tolerance_of<Dim>(core.vertices),
-                                                             tolerance_of<Dim>(points));
+        const double rounding = std::max(4.0 * talus::coordinate_rounding<Dim>(points),
+                                         talus::convex_hull(core.vertices, {}).tolerance);
+        const double slack = 1e-12 * extent + 2.5 * rounding;
         for (const auto& n : core.normals) {
             demand(std::abs(n.norm() - 1.0) < 1e-9, "normal that is no unit vector");
             const double height = n.dot(hull.polytope.support(n));
