@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -123,10 +122,11 @@ TALUS_OF_ANTICIPATED(void)::add(const Encounter& pair, std::span<const ContactPo
     const bool compound =
         pair.shape_a.kind() == ShapeKind::compound || pair.shape_b.kind() == ShapeKind::compound;
     // A routine of one's own may serve a compound as a whole.
-    const bool whole = !compound || std::ranges::any_of(pair.own, [&](const OwnPair<Dim>& own) {
+    const auto is_theirs = [&](const OwnPair<Dim>& own) {
         return (own.a == pair.shape_a.access && own.b == pair.shape_b.access) ||
                (own.a == pair.shape_b.access && own.b == pair.shape_a.access);
-    });
+    };
+    const bool whole = !compound || std::any_of(pair.own.begin(), pair.own.end(), is_theirs);
     if (whole) {
         add_parts(pair, points);
         return;
@@ -139,7 +139,8 @@ TALUS_OF_ANTICIPATED(void)::add(const Encounter& pair, std::span<const ContactPo
             return children(c) != children(*first);
         });
         Encounter part = pair;
-        std::tie(part.child_a, part.child_b) = children(*first);
+        part.child_a = static_cast<std::uint32_t>(children(*first).first);
+        part.child_b = static_cast<std::uint32_t>(children(*first).second);
         if (pair.shape_a.kind() == ShapeKind::compound)
             part.shape_a = pair.shape_a.child(part.child_a);
         if (pair.shape_b.kind() == ShapeKind::compound)
@@ -166,12 +167,14 @@ TALUS_OF_ANTICIPATED(void)::add_parts(const Encounter& pair,
 
 TALUS_OF_ANTICIPATED(bool)::concerns(const Encounter& e) const {
     const auto a = static_cast<std::size_t>(e.a), b = static_cast<std::size_t>(e.b);
-    return std::ranges::any_of(nearest_of(e), [&](const ContactPoint<Dim>& c) {
+    const auto closes = [&](const ContactPoint<Dim>& c) {
         const Vector<Dim> change = motion_.motion(e.a).at(c.point - bodies_->position[a]) -
                                    motion_.motion(e.b).at(c.point - bodies_->position[b]);
         const double way = Foresight::steps * c.normal.dot(change);
         return c.gap > tolerance_ ? c.gap + way < 0.0 : way < -least_approach * e.reach;
-    });
+    };
+    const std::span<const ContactPoint<Dim>> nearest = nearest_of(e);
+    return std::any_of(nearest.begin(), nearest.end(), closes);
 }
 
 TALUS_OF_ANTICIPATED(bool)::has_sides(const Encounter& e) const {
@@ -213,8 +216,10 @@ TALUS_OF_ANTICIPATED(void)::decide_disputes() {
             hold_up_bodies(e);
     for (std::size_t i = 0; i < in_dispute_.size(); ++i)
         if (in_dispute_[i]) motion_.settle(static_cast<BodyIndex>(i));
-    std::ranges::sort(disputed_, {},
-                      [&](std::size_t k) { return std::pair(encounters_[k].meeting.after, k); });
+    std::sort(disputed_.begin(), disputed_.end(), [&](std::size_t j, std::size_t k) {
+        const double first = encounters_[j].meeting.after, second = encounters_[k].meeting.after;
+        return first != second ? first < second : j < k;
+    });
     for (const std::size_t k : disputed_) {
         Encounter& e = encounters_[k];
         if (motion_.is_changed(e.a) || motion_.is_changed(e.b)) {
@@ -235,7 +240,7 @@ TALUS_OF_ANTICIPATED(void)::finish(ContactSet<Dim>& contacts) {
         result_.clear();
         for (; e != encounters_.end() && e->a == a && e->b == b; ++e)
             result_.insert(result_.end(), kept_of(*e).begin(), kept_of(*e).end());
-        std::ranges::sort(result_, {}, &ContactPoint<Dim>::feature);
+        sort_by_feature(result_);
         for (const ContactPoint<Dim>& point : result_) contacts.push_back(a, b, point);
     }
 }

@@ -48,8 +48,7 @@ class ContactDetection {
                                  std::span<const ContactPoint<Dim>>(points_));
                 continue;
             }
-            std::sort(points_.begin(), points_.end(),
-                      [](const auto& x, const auto& y) { return x.feature < y.feature; });
+            sort_by_feature(points_);
             for (const ContactPoint<Dim>& point : points_)
                 contacts.push_back(pair.a, pair.b, point);
         }

@@ -3,12 +3,12 @@
 
 #include <talus/core/check.hpp>
 #include <talus/core/ids.hpp>
+#include <talus/core/input.hpp>
 #include <talus/geometry/aabb.hpp>
 
 #include <compare>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace talus {
@@ -47,8 +47,8 @@ template <int Dim>
 void require_no_nan(std::span<const Aabb<Dim>> boxes) {
     for (std::size_t k = 0; k < boxes.size(); ++k)
         if (boxes[k].low.hasNaN() || boxes[k].high.hasNaN())
-            throw input_error("bounding box of body " + std::to_string(k) +
-                              " is NaN, but must be numbers or infinite");
+            throw input_error(detail::numbered("bounding box of body", k,
+                                               " is NaN, but must be numbers or infinite"));
 }
 
 }  // namespace talus

@@ -4,6 +4,9 @@
 #include <talus/core/ids.hpp>
 #include <talus/core/types.hpp>
 
+#include <algorithm>
+#include <vector>
+
 namespace talus {
 
 /// A place where two shapes touch, nearly touch or overlap.
@@ -23,5 +26,11 @@ struct ContactPoint {
     /// stand: the arm of A then ends at point - slide / 2, that of B at point + slide / 2 [m].
     Vector<Dim> slide = Vector<Dim>::Zero();
 };
+
+template <int Dim>
+void sort_by_feature(std::vector<ContactPoint<Dim>>& points) {
+    std::sort(points.begin(), points.end(),
+              [](const auto& x, const auto& y) { return x.feature < y.feature; });
+}
 
 }  // namespace talus

@@ -124,6 +124,12 @@ class Passage {
     bool better(const Axis& x, const Axis& than) const;
     /// Finds the contacts with the bodies so far ahead, A shifted; null if they are too far apart.
     const ContactPoint<Dim>* look(double steps, const Vector<Dim>& shift);
+    /// Where the contact of least gap is.
+    template <class Contacts>
+    static auto nearest_of(Contacts& contacts) {
+        return std::min_element(contacts.begin(), contacts.end(),
+                                [](const auto& x, const auto& y) { return x.gap < y.gap; });
+    }
     static CoreView<Dim> core_of(const ShapeView<Dim>& shape);
     void find_faces(const MovingShape<Dim>& m, const CoreView<Dim>& core, double sign,
                     std::span<const ContactPoint<Dim>> present);
@@ -231,7 +237,7 @@ TALUS_OF_PASSAGE(const ContactPoint<Dim>*)::look(double steps, const Vector<Dim>
     NarrowPhase<Dim>(margin, own_, by_support_, near_)
         .append(a_.shape, a, b_.shape, b_.pose_after(steps));
     if (near_.empty()) return nullptr;
-    return &*std::ranges::min_element(near_, {}, &ContactPoint<Dim>::gap);
+    return &*nearest_of(near_);
 }
 
 /// Notes the faces that the other body's part in every present contact is beyond, as all of it is
@@ -250,10 +256,8 @@ TALUS_OF_PASSAGE(void)::find_faces(const MovingShape<Dim>& m, const CoreView<Dim
     for (std::size_t f = 0; f < core.face_count(); ++f) {
         if (!try_face(f, first) && own_.empty()) continue;
         if (sign * core.normals[f].dot(nearest) > 1.0 - 1e-12) continue;
-        if (own_.empty() && !std::ranges::all_of(present.subspan(1), [&](const auto& c) {
-                return try_face(f, of_other(c));
-            }))
-            continue;
+        const auto beyond = [&](const ContactPoint<Dim>& c) { return try_face(f, of_other(c)); };
+        if (own_.empty() && !std::all_of(present.begin() + 1, present.end(), beyond)) continue;
         const Axis axis = measured(Vector<Dim>(sign * (m.pose.rotation * core.normals[f])));
         others_ |= axis.qualifies();
         if (better(axis, best_other_)) best_other_ = axis;
@@ -340,7 +344,7 @@ TALUS_OF_PASSAGE(void)::append_near(double least_gap, std::vector<ContactPoint<D
 
 TALUS_OF_PASSAGE(Meeting)::append(std::span<const ContactPoint<Dim>> present,
                                   std::vector<ContactPoint<Dim>>& out) {
-    const auto nearest = std::ranges::min_element(present, {}, &ContactPoint<Dim>::gap);
+    const auto nearest = nearest_of(present);
     const bool closed = nearest->gap <= tolerance_;
     nearest_ = nearest->normal;
     if (core_a_.face_count() + core_b_.face_count() == 0) {

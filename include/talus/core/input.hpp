@@ -4,6 +4,7 @@
 #include <talus/core/check.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -23,7 +24,26 @@ inline std::string text_of(double x) {
                       std::string(range));
 }
 
+[[noreturn]] inline void reject_entry(std::string_view item, std::size_t i, double value) {
+    reject(std::string(item) + "[" + std::to_string(i) + "]", value, "finite");
+}
+
+/// "before k after". Texts are put together here, not in templates, where each instance would
+/// compile them again.
+inline std::string numbered(std::string_view before, std::size_t k, std::string_view after = {}) {
+    return std::string(before) + " " + std::to_string(k) + std::string(after);
+}
+
 }  // namespace detail
+
+/// Throws input_error unless there are as many `items` (say "impulses") as `of` ("contacts").
+inline void require_count(std::string_view items, std::size_t count, std::string_view of,
+                          std::size_t expected) {
+    if (count != expected)
+        throw input_error("number of " + std::string(items) + " is " + std::to_string(count) +
+                          ", but must be that of " + std::string(of) + ", " +
+                          std::to_string(expected));
+}
 
 /// Returns `value`; throws input_error naming `item` unless it is finite and positive.
 inline double require_positive(std::string_view item, double value) {
@@ -52,8 +72,7 @@ template <class Array>
 const Array& require_finite(std::string_view item, const Array& value) {
     for (decltype(value.size()) i = 0; i < value.size(); ++i)
         if (!std::isfinite(value.data()[i]))
-            detail::reject(std::string(item) + "[" + std::to_string(i) + "]", value.data()[i],
-                           "finite");
+            detail::reject_entry(item, static_cast<std::size_t>(i), value.data()[i]);
     return value;
 }
 

@@ -9,10 +9,16 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <string_view>
 
 namespace talus {
 
 namespace detail {
+
+[[noreturn]] inline void reject_motion(std::size_t body, double t, std::string_view what) {
+    throw input_error(
+        numbered("prescribed motion of body", body, " at time " + text_of(t) + std::string(what)));
+}
 
 /// Whether the twist of a motion at time t belongs to its pose, by differences over `reach` [s]: of
 /// one side at least, as a motion may change its velocity at t.
@@ -44,17 +50,15 @@ void place(Bodies<Dim>& bodies, std::size_t i, const PrescribedMotion<Dim>& moti
            double reach = 0.0) {
     const Pose<Dim> pose = motion.pose(t);
     const Twist<Dim> twist = motion.twist(t);
-    const auto name = [&] {
-        return "prescribed motion of body " + std::to_string(i) + " at time " + detail::text_of(t);
-    };
     if (!pose.position.allFinite() || !pose.rotation.matrix().allFinite() ||
         !twist.linear.allFinite() || !twist.angular.allFinite())
-        throw input_error(name() + " is not finite, but must be");
+        detail::reject_motion(i, t, " is not finite, but must be");
     if (reach > 0.0 && !motion.surface_moves &&
         !detail::twist_belongs(motion, pose, twist, t, reach))
-        throw input_error(name() +
-                          " has a twist that is not that of its pose, but must be: give the pose "
-                          "alone (of_pose), or say that the surface moves (belt, with_surface)");
+        detail::reject_motion(
+            i, t,
+            " has a twist that is not that of its pose, but must be: give the pose "
+            "alone (of_pose), or say that the surface moves (belt, with_surface)");
     bodies.position[i] = pose.position;
     bodies.rotation[i] = pose.rotation;
     bodies.velocity[i] = twist.linear;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/input.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/geometry/convex_core.hpp>
 #include <talus/geometry/core_mass.hpp>
@@ -17,7 +18,9 @@ class Box {
     /// From -half_extents to +half_extents [m]. Throws input_error unless all are positive.
     explicit Box(const Vector<Dim>& half_extents) : half_extents_(half_extents) {
         for (int k = 0; k < Dim; ++k)
-            require_positive("half extent " + std::to_string(k) + " of the box", half_extents[k]);
+            require_positive(
+                detail::numbered("half extent", static_cast<std::size_t>(k), " of the box"),
+                half_extents[k]);
         core_ = std::make_shared<const ConvexCore<Dim>>(corners(half_extents), sides(), 0.0);
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/input.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/matrix_problem.hpp>
 
@@ -54,9 +55,7 @@ AssembledProblem<Dim, Coulomb<Dim>> assembled(const ProblemContent<Dim>& content
 template <int Dim, class Law>
 ProblemSolution<Dim> solution_of(const AssembledProblem<Dim, Law>& p,
                                  std::span<const Vector<Dim>> r) {
-    if (r.size() != p.contact_count())
-        throw input_error("number of impulses is " + std::to_string(r.size()) +
-                          ", but must be that of contacts, " + std::to_string(p.contact_count()));
+    require_count("impulses", r.size(), "contacts", p.contact_count());
     ProblemSolution<Dim> s{{}, p.free_velocity, {r.begin(), r.end()}};
     p.delassus.multiply(r, s.relative_velocity);
     for (std::size_t i = 0; i < r.size(); ++i) s.relative_velocity[i] += p.free_velocity[i];
@@ -67,9 +66,7 @@ ProblemSolution<Dim> solution_of(const AssembledProblem<Dim, Law>& p,
 /// input_error also if M cannot be factorised.
 template <int Dim, class Law>
 ProblemSolution<Dim> solution_of(const GlobalProblem<Dim, Law>& p, std::span<const Vector<Dim>> r) {
-    if (r.size() != p.contact_count())
-        throw input_error("number of impulses is " + std::to_string(r.size()) +
-                          ", but must be that of contacts, " + std::to_string(p.contact_count()));
+    require_count("impulses", r.size(), "contacts", p.contact_count());
     const auto size = static_cast<Eigen::Index>(Dim * r.size());
     ProblemSolution<Dim> s{p.force, p.velocity_offset, {r.begin(), r.end()}};
     if (p.mass.rows() == 0) return s;

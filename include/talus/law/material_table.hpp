@@ -3,6 +3,7 @@
 
 #include <talus/core/check.hpp>
 #include <talus/core/ids.hpp>
+#include <talus/core/input.hpp>
 
 #include <concepts>
 #include <optional>
@@ -19,9 +20,7 @@ class MaterialTable {
   public:
     /// Table of `materials` kinds of surface, no pair set. Throws input_error unless positive.
     explicit MaterialTable(MaterialIndex materials) : materials_(materials) {
-        if (materials <= 0)
-            throw input_error("materials is " + std::to_string(materials) +
-                              ", but must be at least 1");
+        if (materials <= 0) detail::reject("materials", materials, "at least 1");
         const auto n = static_cast<std::size_t>(materials);
         laws_.resize(n * (n + 1) / 2);
     }
@@ -59,10 +58,7 @@ class MaterialTable {
     }
     /// Place of the pair in the lower triangle, row by row.
     std::size_t slot(MaterialIndex i, MaterialIndex j) const {
-        for (const MaterialIndex k : {i, j})
-            if (k < 0 || k >= materials_)
-                throw input_error("material index is " + std::to_string(k) +
-                                  ", but must be in [0, " + std::to_string(materials_ - 1) + "]");
+        for (const MaterialIndex k : {i, j}) require_in("material index", k, 0, materials_ - 1);
         const auto high = static_cast<std::size_t>(i > j ? i : j);
         const auto low = static_cast<std::size_t>(i > j ? j : i);
         return high * (high + 1) / 2 + low;

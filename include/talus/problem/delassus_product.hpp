@@ -216,4 +216,28 @@ class DelassusProduct {
 static_assert(SweepableDelassus<DelassusProduct<2>, 2> && SweepableDelassus<DelassusProduct<3>, 3>);
 static_assert(SweepableDelassus<DelassusProduct<3, double>, 3>);
 
+/// The operators of problems of rigid bodies, which a solver keeps between solves.
+template <int Dim>
+class RigidBodyOperators {
+  public:
+    /// Takes a new problem in, at zero impulses, keeping a reference to `jacobian`; returns f(W)
+    /// for the quicker W that applies. In the plane every inertia is scalar.
+    template <class F>
+    decltype(auto) with(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
+                        F&& f) {
+        if constexpr (Dim == 3) {
+            if (!has_scalar_inertia(inverse_mass)) {
+                tensor_.assign(jacobian, inverse_mass);
+                return f(tensor_);
+            }
+        }
+        scalar_.assign(jacobian, inverse_mass);
+        return f(scalar_);
+    }
+
+  private:
+    DelassusProduct<Dim> tensor_;
+    DelassusProduct<Dim, double> scalar_;
+};
+
 }  // namespace talus

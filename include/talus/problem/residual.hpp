@@ -2,6 +2,8 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/input.hpp>
+#include <talus/core/room.hpp>
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/problem/delassus_product.hpp>
@@ -12,7 +14,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace talus {
@@ -53,6 +54,9 @@ class ContactScales {
     template <class W>
     void find_islands(const W& w) {
         const std::size_t n = w.contact_count();
+        detail::make_room(label_, n);
+        detail::make_room(index_, n);
+        detail::make_room(island_, n);
         label_.assign(n, 0);
         if constexpr (requires(std::span<std::uint32_t> label) { w.islands(label); })
             w.islands(std::span<std::uint32_t>(label_));
@@ -268,10 +272,7 @@ class ResidualMeasure {
 /// ResidualMeasure instead. Throws input_error unless there is one impulse per contact.
 template <int Dim, class Law>
 Residual residual(const ContactProblem<Dim, Law>& problem, std::span<const Vector<Dim>> r) {
-    if (r.size() != problem.contact_count())
-        throw input_error("number of impulses is " + std::to_string(r.size()) +
-                          ", but must be that of contacts, " +
-                          std::to_string(problem.contact_count()));
+    require_count("impulses", r.size(), "contacts", problem.contact_count());
     DelassusProduct<Dim> w(problem.jacobian, problem.inverse_mass);
     ResidualMeasure<Dim> measure;
     measure.template prepare<DelassusProduct<Dim>, Law>(w, problem.free_velocity, problem.laws);

@@ -173,10 +173,8 @@ TALUS_OF_STEP::undo(SystemType& system) noexcept {
 }
 
 TALUS_OF_STEP::require_shapes(const SystemType& system) {
-    if (system.shapes().size() != system.bodies.count())
-        throw input_error("number of shapes is " + std::to_string(system.shapes().size()) +
-                          ", but must be that of bodies, " + std::to_string(system.bodies.count()) +
-                          ": bodies are added by System::add and add_obstacle");
+    require_count("shapes", system.shapes().size(),
+                  "bodies (which System::add and add_obstacle add)", system.bodies.count());
 }
 
 TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
@@ -236,7 +234,7 @@ TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Dat
 TALUS_OF_STEP::require_finite_forces(const Data& data) {
     for (std::size_t i = 0; i < data.applied.size(); ++i) {
         if (data.applied[i].force.allFinite() && data.applied[i].torque.allFinite()) continue;
-        const std::string item = "applied force on body " + std::to_string(i);
+        const std::string item = detail::numbered("applied force on body", i);
         require_finite(item, data.applied[i].force);
         require_finite(item + ", its torque", data.applied[i].torque);
     }

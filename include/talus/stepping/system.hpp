@@ -94,8 +94,8 @@ struct System {
     void set_shape(BodyIndex body, const S& shape) {
         if (body < 0 || static_cast<std::size_t>(body) >= shapes_.size())
             detail::reject("body", body,
-                           "an index from 0 below " + std::to_string(shapes_.size()) +
-                               ", the number of bodies with shapes");
+                           detail::numbered("an index from 0 below", shapes_.size(),
+                                            ", the number of bodies with shapes"));
         replace_shape(static_cast<std::size_t>(body), ShapeType(shape));
     }
     /// Another number whenever some shape is another; copies of a system share it.
@@ -149,9 +149,10 @@ template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::check_material(MaterialIndex material) const {
     if (material < 0 || material >= laws.material_count())
-        detail::reject("material", material,
-                       "an index below " + std::to_string(laws.material_count()) +
-                           ", the number of materials");
+        detail::reject(
+            "material", material,
+            detail::numbered("an index below", static_cast<std::size_t>(laws.material_count()),
+                             ", the number of materials"));
 }
 
 template <int Dim, class Law, class ShapeType>

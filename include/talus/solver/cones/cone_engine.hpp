@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -117,11 +116,6 @@ class ConeEngine {
         return measure_.template evaluate<Law>(free_velocity, laws, r,
                                                [&](std::size_t i) { return velocity_[i]; });
     }
-    static void require_count(const char* item, std::size_t size, std::size_t contacts) {
-        if (size != contacts)
-            throw input_error("number of " + std::string(item) + " is " + std::to_string(size) +
-                              ", but must be that of contacts, " + std::to_string(contacts));
-    }
 
     ResidualMeasure<Dim> measure_;
     std::vector<Vector<Dim>> velocity_, kept_;
@@ -160,9 +154,9 @@ const SolveReport& ConeEngine<Dim, Law, Engine>::run(const W& w,
                                                      std::span<const Vector<Dim>> free_velocity,
                                                      std::span<const Law> laws,
                                                      std::span<Vector<Dim>> r, Source&& source) {
-    require_count("free velocities", free_velocity.size(), w.contact_count());
-    require_count("laws", laws.size(), w.contact_count());
-    require_count("impulses", r.size(), w.contact_count());
+    require_count("free velocities", free_velocity.size(), "contacts", w.contact_count());
+    require_count("laws", laws.size(), "contacts", w.contact_count());
+    require_count("impulses", r.size(), "contacts", w.contact_count());
     require_non_negative("max_iterations", engine().params.max_iterations);
     require_non_negative("tolerance", engine().params.tolerance);
     std::vector<FrictionCone<Dim>> cones = require_cones(laws);

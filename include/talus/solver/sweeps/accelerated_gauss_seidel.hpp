@@ -3,14 +3,14 @@
 
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
+#include <talus/core/room.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/assembled_problem.hpp>
-#include <talus/problem/body_map.hpp>
 #include <talus/problem/delassus_product.hpp>
 #include <talus/solver/concepts.hpp>
+#include <talus/solver/sweeps/anderson_memory.hpp>
 #include <talus/solver/sweeps/sweep_kernel.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -63,6 +63,9 @@ struct AcceleratedGaussSeidelParams {
 template <int Dim, ContactLaw<Dim> Law>
 class AcceleratedGaussSeidel {
   public:
+    /// Residuals kept in SolveReport::history; from then on the last one is replaced.
+    static constexpr std::size_t history_limit = 256;
+
     explicit AcceleratedGaussSeidel(AcceleratedGaussSeidelParams params = {}) : params(params) {}
     AcceleratedGaussSeidelParams params;
 
@@ -74,15 +77,15 @@ class AcceleratedGaussSeidel {
     }
     const SolveReport& solve(DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity,
                              std::span<const Law> laws, std::span<Vector<Dim>> r);
-    const SolveReport& solve(DelassusGlobal<Dim>& w, std::span<const Vector<Dim>> free_velocity,
-                             std::span<const Law> laws, std::span<Vector<Dim>> r) {
-        return solve(w.assembled(), free_velocity, laws, r);
-    }
-    /// The same with an operator of the caller's.
+    /// The same with an operator of the caller's. Of a DelassusGlobal only what is assembled
+    /// counts.
     template <SweepableDelassus<Dim> W>
     const SolveReport& solve(W& w, std::span<const Vector<Dim>> free_velocity,
                              std::span<const Law> laws, std::span<Vector<Dim>> r) {
-        return run(w, free_velocity, laws, r);
+        if constexpr (requires { w.assembled(); })
+            return solve(w.assembled(), free_velocity, laws, r);
+        else
+            return run(w, free_velocity, laws, r);
     }
 
     const SolveReport& report() const { return report_; }  ///< of the last solve
@@ -90,124 +93,59 @@ class AcceleratedGaussSeidel {
   private:
     enum class Way { own, other, damped, plain };
 
+    /// What differs between operators, so that all else is compiled once.
+    struct Sweeper {
+        std::span<Vector<Dim>> r;
+
+        explicit Sweeper(std::span<Vector<Dim>> r) : r(r) {}
+        /// Forward and back, or forward twice if plain.
+        virtual void sweep_twice(Way way) = 0;
+        virtual void start() = 0;         ///< follows r afresh
+        virtual Residual evaluate() = 0;  ///< at what it follows
+
+      protected:
+        ~Sweeper() = default;
+    };
     template <class W>
-    using Task = SweepTask<Dim, Law, W>;
-    using Vec = Eigen::VectorXd;
+    struct SweeperOf final : Sweeper {
+        SweepTask<Dim, Law, W> task;
+        SweepKernel<Dim, Law>& kernel;
+
+        SweeperOf(const SweepTask<Dim, Law, W>& task, SweepKernel<Dim, Law>& kernel)
+            : Sweeper(task.r), task(task), kernel(kernel) {
+            kernel.prepare(task);
+        }
+        void sweep_twice(Way way) override {
+            constexpr double part = 0.4;
+            const std::size_t n = task.r.size();
+            for (std::size_t k = 0; k < 2 * n; ++k) {
+                const std::size_t i = k < n ? k : way == Way::plain ? k - n : 2 * n - 1 - k;
+                if (way == Way::damped)
+                    kernel.visit_in_part(task, i, part);
+                else
+                    kernel.visit(task, i);
+            }
+        }
+        void start() override { task.w.start(task.r); }
+        Residual evaluate() override { return kernel.evaluate(task); }
+    };
 
     template <class W>
     const SolveReport& run(W& w, std::span<const Vector<Dim>> free_velocity,
                            std::span<const Law> laws, std::span<Vector<Dim>> r) {
         const SweepTask<Dim, Law, W> task{w, free_velocity, laws, r};
         task.require_sizes();
-        require_non_negative("max_iterations", params.max_iterations);
-        require_non_negative("tolerance", params.tolerance);
-        require_in("depth", params.depth, 1, 20);
-        require_non_negative("patience", params.patience);
-        report_.history.clear();
-        report_.history.reserve(256);
-        kernel_.prepare(task);
-        kept_.assign(r.begin(), r.end());
-        own_y_.reserve(r.size());
-        best_ = {.relative = std::numeric_limits<double>::infinity()};
-        if (verify(task, 0)) return report_;
-        // A start that is worse than none.
-        if (best_.relative > 1.0) {
-            std::fill(task.r.begin(), task.r.end(), Vector<Dim>::Zero());
-            if (verify(task, 0)) return report_;
-        }
-        iterate(task);
-        if (report_.status == SolveStatus::iteration_limit && best_.relative < report_.residual) {
-            std::copy(kept_.begin(), kept_.end(), r.begin());
-            report_.take(best_);
-            report_.history.push_back({report_.iterations, best_.relative});
-        }
+        require_params();
+        SweeperOf<W> sweeper(task, kernel_);
+        run(sweeper);
         return report_;
     }
 
-    template <class W>
-    void sweep_twice(const Task<W>& task, Way way) {
-        constexpr double part = 0.4;
-        const std::size_t n = task.r.size();
-        if (way == Way::damped) {
-            for (std::size_t i = 0; i < n; ++i) kernel_.visit_in_part(task, i, part);
-            for (std::size_t i = n; i-- > 0;) kernel_.visit_in_part(task, i, part);
-            return;
-        }
-        for (std::size_t i = 0; i < n; ++i) kernel_.visit(task, i);
-        if (way == Way::plain)
-            for (std::size_t i = 0; i < n; ++i) kernel_.visit(task, i);
-        else
-            for (std::size_t i = n; i-- > 0;) kernel_.visit(task, i);
-    }
-
-    template <class W>
-    void iterate(const Task<W>& task) {
-        y_.assign(task.r.begin(), task.r.end());
-        count_ = 0;
-        next_look_ = 1;
-        reset_momentum();
-        reset_memory();
-        if (params.patience == 0) {
-            run(task, Way::own, params.max_iterations);
-            return;
-        }
-        const auto start_from = [&](const std::vector<Vector<Dim>>& x) {
-            std::copy(x.begin(), x.end(), task.r.begin());
-            y_.assign(x.begin(), x.end());
-            task.w.start(task.r);
-        };
-        constexpr int rounds = 4, smoothing = 10, first_try = 30, plain = 1000;
-        for (int round = 0;; ++round) {
-            if (run(task, Way::own, params.patience)) return;
-            own_y_ = y_;
-            params.acceleration == Acceleration::nesterov ? reset_memory() : reset_momentum();
-            if (run(task, Way::damped, smoothing)) return;
-            if (run(task, Way::other, first_try << (round % rounds))) return;
-            start_from(own_y_);
-            if (round % rounds != rounds - 1) continue;
-            start_from(kept_);
-            if (run(task, Way::plain, plain * (1 + round / rounds))) return;
-            reset_momentum();
-            reset_memory();
-        }
-    }
-
-    /// So many iterations in one way, from task.r, which is y_; true if the solve is over.
-    template <class W>
-    bool run(const Task<W>& task, Way way, int length) {
-        const bool with_momentum =
-            (params.acceleration == Acceleration::nesterov) == (way == Way::own);
-        const std::size_t n = task.r.size();
-        double ratio = 0.0;
-        for (const int end = std::min(params.max_iterations - count_, length) + count_;
-             count_ < end;) {
-            const int k = ++count_;
-            // x = T(y): task.r holds y, then x.
-            sweep_twice(task, way);
-            double change = 0.0;
-            for (std::size_t i = 0; i < n; ++i)
-                change += (task.r[i] - y_[i]).squaredNorm() / kernel_.measure().effective_mass(i);
-            change = std::sqrt(change);
-            // The increment bounds the residual by a ratio that changes slowly: a residual, half a
-            // sweep, is paid for only where it may be the last.
-            const bool hopeful = !(change * ratio > params.tolerance);
-            if (k == end || k == next_look_ || hopeful) {
-                if (verify(task, k) || change == 0.0) return true;
-                ratio = report_.residual / change;
-                // After 1, 2, 4, 7, 11...: history for the observer of the report.
-                if (k == next_look_) next_look_ += 1 + next_look_ / 2;
-            }
-            if (k == params.max_iterations) return true;
-            if (way == Way::damped || way == Way::plain) {
-                y_.assign(task.r.begin(), task.r.end());
-                continue;
-            }
-            with_momentum ? momentum(task.r, change) : combine(task.r, change);
-            std::copy(y_.begin(), y_.end(), task.r.begin());
-            task.w.start(task.r);
-        }
-        return count_ >= params.max_iterations;
-    }
+    void require_params() const;
+    void run(Sweeper& sweeper);
+    void iterate(Sweeper& sweeper);
+    bool run(Sweeper& sweeper, Way way, int length);
+    bool verify(Sweeper& sweeper, int iterations);
 
     void reset_momentum() {
         time_ = 1.0;
@@ -215,41 +153,14 @@ class AcceleratedGaussSeidel {
         x_.clear();
     }
     void reset_memory() {
-        columns_ = 0;
-        newest_ = -1;
-        has_last_ = false;
+        memory_.clear();
         least_change_ = std::numeric_limits<double>::infinity();
     }
 
     void momentum(std::span<const Vector<Dim>> x, double change);
     void combine(std::span<const Vector<Dim>> x, double change);
-    void scale_iterate(std::span<const Vector<Dim>> x);
-    void remember();
-    bool find_combination();
 
-    /// Evaluates the residual afresh, notes it, and tells whether the solve is over.
-    template <class W>
-    bool verify(const Task<W>& task, int iterations) {
-        task.w.start(task.r);
-        const Residual residual = kernel_.evaluate(task);
-        report_.iterations = iterations;
-        report_.status = SolveStatus::iteration_limit;
-        if (!residual.finite()) {
-            std::copy(kept_.begin(), kept_.end(), task.r.begin());
-            report_.status = SolveStatus::not_finite;
-        } else if (residual.relative <= params.tolerance) {
-            report_.status = SolveStatus::converged;
-        } else if (residual.relative < best_.relative) {
-            std::copy(task.r.begin(), task.r.end(), kept_.begin());
-            best_ = residual;
-        }
-        report_.take(residual);
-        report_.history.push_back({iterations, residual.relative});
-        return report_.status != SolveStatus::iteration_limit;
-    }
-
-    DelassusProduct<Dim> product_;
-    DelassusProduct<Dim, double> scalar_product_;
+    RigidBodyOperators<Dim> bodies_;
     SweepKernel<Dim, Law> kernel_;
     int count_ = 0, next_look_ = 1;  ///< of iterations
     // y_: where the next map begins, own_y_: that of the own way meanwhile; kept_: the best
@@ -258,11 +169,7 @@ class AcceleratedGaussSeidel {
     Residual best_;  ///< theirs
     // Momentum: the last T(y), Nesterov's time and the last increment.
     double time_ = 1.0, last_change_ = 0.0;
-    // Anderson's memory, in scaled units: differences of T(y) and of T(y) - y, in a ring.
-    Eigen::MatrixXd image_, increment_, gram_, small_;
-    Vec last_image_, last_increment_, now_image_, now_increment_, weights_;
-    int columns_ = 0, newest_ = -1;
-    bool has_last_ = false;
+    AndersonMemory memory_;      ///< in units of the norm
     double least_change_ = 0.0;  ///< increment met since the memory was emptied
     SolveReport report_;
 };
@@ -272,18 +179,136 @@ class AcceleratedGaussSeidel {
 template <int Dim, ContactLaw<Dim> Law>
 const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
                                                            std::span<Vector<Dim>> r) {
-    if (has_scalar_inertia(problem.inverse_mass)) {
-        scalar_product_.assign(problem.jacobian, problem.inverse_mass);
-        return run(scalar_product_, problem.free_velocity, problem.laws, r);
-    }
-    product_.assign(problem.jacobian, problem.inverse_mass);
-    return run(product_, problem.free_velocity, problem.laws, r);
+    return bodies_.with(problem.jacobian, problem.inverse_mass, [&](auto& w) -> const SolveReport& {
+        return run(w, problem.free_velocity, problem.laws, r);
+    });
 }
 template <int Dim, ContactLaw<Dim> Law>
 const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(
     DelassusSparse<Dim>& w, std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
     std::span<Vector<Dim>> r) {
     return run(w, free_velocity, laws, r);
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+void AcceleratedGaussSeidel<Dim, Law>::require_params() const {
+    require_non_negative("max_iterations", params.max_iterations);
+    require_non_negative("tolerance", params.tolerance);
+    require_in("depth", params.depth, 1, 20);
+    require_non_negative("patience", params.patience);
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+void AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper) {
+    const std::span<Vector<Dim>> r = sweeper.r;
+    report_.history.clear();
+    report_.history.reserve(history_limit);
+    // Room for all ways, so that a hard problem needs no more than an easy one as large.
+    for (std::vector<Vector<Dim>>* one : {&kept_, &x_, &y_, &own_y_})
+        detail::make_room(*one, r.size());
+    if (params.patience > 0) memory_.make_room(Dim * r.size(), params.depth);
+    kept_.assign(r.begin(), r.end());
+    best_ = {.relative = std::numeric_limits<double>::infinity()};
+    if (verify(sweeper, 0)) return;
+    // A start that is worse than none.
+    if (best_.relative > 1.0) {
+        std::fill(r.begin(), r.end(), Vector<Dim>::Zero());
+        if (verify(sweeper, 0)) return;
+    }
+    iterate(sweeper);
+    if (report_.status == SolveStatus::iteration_limit && best_.relative < report_.residual) {
+        std::copy(kept_.begin(), kept_.end(), r.begin());
+        report_.take(best_);
+        report_.note(report_.iterations, best_.relative, history_limit);
+    }
+}
+
+template <int Dim, ContactLaw<Dim> Law>
+void AcceleratedGaussSeidel<Dim, Law>::iterate(Sweeper& sweeper) {
+    y_.assign(sweeper.r.begin(), sweeper.r.end());
+    count_ = 0;
+    next_look_ = 1;
+    reset_momentum();
+    reset_memory();
+    if (params.patience == 0) {
+        run(sweeper, Way::own, params.max_iterations);
+        return;
+    }
+    const auto start_from = [&](const std::vector<Vector<Dim>>& x) {
+        std::copy(x.begin(), x.end(), sweeper.r.begin());
+        y_.assign(x.begin(), x.end());
+        sweeper.start();
+    };
+    constexpr int rounds = 4, smoothing = 10, first_try = 30, plain = 1000;
+    for (int round = 0;; ++round) {
+        if (run(sweeper, Way::own, params.patience)) return;
+        own_y_ = y_;
+        params.acceleration == Acceleration::nesterov ? reset_memory() : reset_momentum();
+        if (run(sweeper, Way::damped, smoothing)) return;
+        if (run(sweeper, Way::other, first_try << (round % rounds))) return;
+        start_from(own_y_);
+        if (round % rounds != rounds - 1) continue;
+        start_from(kept_);
+        if (run(sweeper, Way::plain, plain * (1 + round / rounds))) return;
+        reset_momentum();
+        reset_memory();
+    }
+}
+
+/// So many iterations in one way, from r, which is y_; true if the solve is over.
+template <int Dim, ContactLaw<Dim> Law>
+bool AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper, Way way, int length) {
+    const bool with_momentum = (params.acceleration == Acceleration::nesterov) == (way == Way::own);
+    const std::span<Vector<Dim>> r = sweeper.r;
+    double ratio = 0.0;
+    for (const int end = std::min(params.max_iterations - count_, length) + count_; count_ < end;) {
+        const int k = ++count_;
+        // x = T(y): r holds y, then x.
+        sweeper.sweep_twice(way);
+        double change = 0.0;
+        for (std::size_t i = 0; i < r.size(); ++i)
+            change += (r[i] - y_[i]).squaredNorm() / kernel_.measure().effective_mass(i);
+        change = std::sqrt(change);
+        // The increment bounds the residual by a ratio that changes slowly: a residual, half a
+        // sweep, is paid for only where it may be the last.
+        const bool hopeful = !(change * ratio > params.tolerance);
+        if (k == end || k == next_look_ || hopeful) {
+            if (verify(sweeper, k) || change == 0.0) return true;
+            ratio = report_.residual / change;
+            // After 1, 2, 4, 7, 11...: history for the observer of the report.
+            if (k == next_look_) next_look_ += 1 + next_look_ / 2;
+        }
+        if (k == params.max_iterations) return true;
+        if (way == Way::damped || way == Way::plain) {
+            y_.assign(r.begin(), r.end());
+            continue;
+        }
+        with_momentum ? momentum(r, change) : combine(r, change);
+        std::copy(y_.begin(), y_.end(), r.begin());
+        sweeper.start();
+    }
+    return count_ >= params.max_iterations;
+}
+
+/// Evaluates the residual afresh, notes it, and tells whether the solve is over.
+template <int Dim, ContactLaw<Dim> Law>
+bool AcceleratedGaussSeidel<Dim, Law>::verify(Sweeper& sweeper, int iterations) {
+    sweeper.start();
+    const Residual residual = sweeper.evaluate();
+    report_.iterations = iterations;
+    report_.status = SolveStatus::iteration_limit;
+    if (!residual.finite()) {
+        std::copy(kept_.begin(), kept_.end(), sweeper.r.begin());
+        report_.status = SolveStatus::not_finite;
+    } else if (residual.relative <= params.tolerance) {
+        report_.status = SolveStatus::converged;
+    } else if (residual.relative < best_.relative) {
+        std::copy(sweeper.r.begin(), sweeper.r.end(), kept_.begin());
+        best_ = residual;
+    }
+    report_.take(residual);
+    report_.note(iterations, residual.relative, history_limit);
+    return report_.status != SolveStatus::iteration_limit;
 }
 
 /// y := x + beta (x - x_before), without memory after an increment that grew.
@@ -308,77 +333,34 @@ void AcceleratedGaussSeidel<Dim, Law>::momentum(std::span<const Vector<Dim>> x, 
     }
 }
 
-/// y := the affine combination of the last T(y) whose increment is least.
+/// y := the affine combination of the last T(y) whose increment is least, in the norm |D^-1/2 .|,
+/// in which contacts of all masses count alike.
 template <int Dim, ContactLaw<Dim> Law>
 void AcceleratedGaussSeidel<Dim, Law>::combine(std::span<const Vector<Dim>> x, double change) {
-    scale_iterate(x);
+    const std::size_t n = x.size();
+    memory_.prepare(Dim * n, params.depth);
     if (change > 2.0 * least_change_) {
         reset_memory();
+        // It is the first of a new memory.
         least_change_ = change;
-        y_.assign(x.begin(), x.end());
-        return;
     }
     least_change_ = std::min(least_change_, change);
-    if (has_last_) remember();
-    last_image_.swap(now_image_);
-    last_increment_.swap(now_increment_);
-    has_last_ = true;
-    if (columns_ == 0 || !find_combination()) {
+    for (std::size_t i = 0; i < n; ++i) {
+        const double scale = 1.0 / std::sqrt(kernel_.measure().effective_mass(i));
+        for (std::size_t d = 0; d < Dim; ++d) {
+            const auto row = static_cast<Eigen::Index>(d);
+            memory_.image()[Dim * i + d] = scale * x[i][row];
+            memory_.increment()[Dim * i + d] = scale * (x[i][row] - y_[i][row]);
+        }
+    }
+    if (!memory_.combine()) {
         y_.assign(x.begin(), x.end());
         return;
     }
-    for (std::size_t i = 0; i < x.size(); ++i)
-        y_[i] = now_image_.template segment<Dim>(static_cast<Eigen::Index>(Dim * i)) *
-                std::sqrt(kernel_.measure().effective_mass(i));
-}
-
-/// T(y) and T(y) - y in the norm |D^-1/2 .|, in which contacts of all masses count alike.
-template <int Dim, ContactLaw<Dim> Law>
-void AcceleratedGaussSeidel<Dim, Law>::scale_iterate(std::span<const Vector<Dim>> x) {
-    const auto n = static_cast<Eigen::Index>(Dim * x.size());
-    const int depth = params.depth;
-    if (image_.rows() != n || image_.cols() != depth) {
-        image_.resize(n, depth);
-        increment_.resize(n, depth);
-    }
-    gram_.resize(depth, depth);
-    last_image_.resize(n);
-    last_increment_.resize(n);
-    now_image_.resize(n);
-    now_increment_.resize(n);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const double scale = 1.0 / std::sqrt(kernel_.measure().effective_mass(i));
-        const auto at = static_cast<Eigen::Index>(Dim * i);
-        now_image_.template segment<Dim>(at) = scale * x[i];
-        now_increment_.template segment<Dim>(at) = scale * (x[i] - y_[i]);
-    }
-}
-
-/// Puts the last differences in the place of the oldest ones, and their products into the Gram
-/// matrix: depth products in all, as the others are known.
-template <int Dim, ContactLaw<Dim> Law>
-void AcceleratedGaussSeidel<Dim, Law>::remember() {
-    newest_ = (newest_ + 1) % params.depth;
-    columns_ = std::min(columns_ + 1, params.depth);
-    image_.col(newest_) = now_image_ - last_image_;
-    increment_.col(newest_) = now_increment_ - last_increment_;
-    for (int j = 0; j < columns_; ++j)
-        gram_(newest_, j) = gram_(j, newest_) = increment_.col(newest_).dot(increment_.col(j));
-}
-
-/// now_image_ := last image - differences * weights, the weights of least increment
-/// [WalkerNi2011]. False, with an empty memory, if that is not finite.
-template <int Dim, ContactLaw<Dim> Law>
-bool AcceleratedGaussSeidel<Dim, Law>::find_combination() {
-    small_ = gram_.topLeftCorner(columns_, columns_);
-    constexpr double regular = 1e-10;  // Gram matrices carry half the digits
-    small_.diagonal().array() += regular * small_.trace();
-    weights_ = increment_.leftCols(columns_).transpose() * last_increment_;
-    weights_ = small_.ldlt().solve(weights_).eval();
-    now_image_.noalias() = last_image_ - image_.leftCols(columns_) * weights_;
-    if (now_image_.allFinite()) return true;
-    reset_memory();
-    return false;
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t d = 0; d < Dim; ++d)
+            y_[i][static_cast<Eigen::Index>(d)] =
+                memory_.image()[Dim * i + d] * std::sqrt(kernel_.measure().effective_mass(i));
 }
 
 }  // namespace talus

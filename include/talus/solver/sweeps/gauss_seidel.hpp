@@ -5,6 +5,7 @@
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/core/observer.hpp>
+#include <talus/core/room.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/delassus_product.hpp>
@@ -37,8 +38,7 @@ struct RigidBodies {
 template <int Rows, class Law>
 requires(rows_of_bodies<Rows, Law>) struct RigidBodies<Rows, Law> {
     using Problem = ContactProblem<Rows, Law>;
-    DelassusProduct<Rows> tensor;
-    DelassusProduct<Rows, double> scalar;
+    RigidBodyOperators<Rows> operators;
 };
 
 }  // namespace detail
@@ -100,12 +100,10 @@ class GaussSeidel {
     template <class OnSweep>
     const SolveReport& solve(const Problem& problem, std::span<Vector<Dim>> r,
                              OnSweep&& on_sweep) requires(detail::rows_of_bodies<Dim, Law>) {
-        if (has_scalar_inertia(problem.inverse_mass)) {
-            bodies_.scalar.assign(problem.jacobian, problem.inverse_mass);
-            return solve(bodies_.scalar, problem.free_velocity, problem.laws, r, on_sweep);
-        }
-        bodies_.tensor.assign(problem.jacobian, problem.inverse_mass);
-        return solve(bodies_.tensor, problem.free_velocity, problem.laws, r, on_sweep);
+        return bodies_.operators.with(
+            problem.jacobian, problem.inverse_mass, [&](auto& w) -> const SolveReport& {
+                return solve(w, problem.free_velocity, problem.laws, r, on_sweep);
+            });
     }
     /// Unobserved.
     const SolveReport& solve(const Problem& problem,
@@ -144,6 +142,7 @@ class GaussSeidel {
     void prepare(const Task<W>& task) {
         report_.history.clear();
         report_.history.reserve(history_limit);
+        detail::make_room(last_finite_, task.r.size());
         last_finite_.assign(task.r.begin(), task.r.end());
         sequence_.reset(params.order, params.seed, task.r.size());
         kernel_.prepare(task);
@@ -196,8 +195,7 @@ class GaussSeidel {
             std::copy(task.r.begin(), task.r.end(), last_finite_.begin());
         }
         report_.take(residual);
-        if (report_.history.size() == history_limit) report_.history.pop_back();
-        report_.history.push_back({sweeps, residual.relative});
+        report_.note(sweeps, residual.relative, history_limit);
         return report_.status != SolveStatus::iteration_limit;
     }
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/room.hpp>
 #include <talus/law/prepared.hpp>
 #include <talus/problem/residual.hpp>
 
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace talus {
@@ -23,15 +23,10 @@ struct SweepTask {
 
     /// Throws input_error unless all arrays have one entry per contact.
     void require_sizes() const {
-        const auto same = [&](const char* item, std::size_t size) {
-            if (size != w.contact_count())
-                throw input_error("number of " + std::string(item) + " is " + std::to_string(size) +
-                                  ", but must be that of contacts, " +
-                                  std::to_string(w.contact_count()));
-        };
-        same("free velocities", free_velocity.size());
-        same("laws", laws.size());
-        same("impulses", r.size());
+        const std::size_t contacts = w.contact_count();
+        require_count("free velocities", free_velocity.size(), "contacts", contacts);
+        require_count("laws", laws.size(), "contacts", contacts);
+        require_count("impulses", r.size(), "contacts", contacts);
     }
 };
 
@@ -43,7 +38,7 @@ class SweepKernel {
     void prepare(const SweepTask<Dim, Law, W>& task) {
         measure_.template prepare<W, Law>(task.w, task.free_velocity, task.laws);
         prepared_.clear();
-        prepared_.reserve(task.r.size());
+        detail::make_room(prepared_, task.r.size());
         for (std::size_t i = 0; i < task.r.size(); ++i)
             prepared_.push_back(talus::prepare<Dim>(task.laws[i], task.w.diagonal_block(i)));
     }
@@ -78,15 +73,24 @@ class SweepKernel {
     /// The residual at the impulses that `w` follows. Costs about half a sweep.
     template <class W>
     Residual evaluate(const SweepTask<Dim, Law, W>& task) {
-        return measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
-                                               [&](std::size_t i) { return task.w.velocity(i); });
+        velocity_.resize(task.r.size());
+        for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] = task.w.velocity(i);
+        return evaluate(task.free_velocity, task.laws, task.r);
     }
 
     /// Its effective masses are the D of the norms |D^-1/2 dr|.
     const ResidualMeasure<Dim>& measure() const { return measure_; }
 
   private:
+    /// At velocity_; compiled once for all operators.
+    Residual evaluate(std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
+                      std::span<const Vector<Dim>> r) {
+        return measure_.template evaluate<Law>(free_velocity, laws, r,
+                                               [&](std::size_t i) { return velocity_[i]; });
+    }
+
     ResidualMeasure<Dim> measure_;
+    std::vector<Vector<Dim>> velocity_;  // W r
     // By contact: what its law keeps of W_ii, the inverse of a block for Coulomb, say.
     std::vector<Prepared<Law, Dim>> prepared_;
 };
