@@ -17,7 +17,8 @@
 
 namespace talus {
 
-/// Contacts of bodies that are apart, by what their motion will make of them (see Passage).
+/// Contacts by what the motion of the bodies will make of them (see Passage): those of bodies that
+/// are apart, and of bodies that touch at a side which they slide past, as flush tiles do.
 ///
 /// Which side two bodies meet depends on what else is in the way: the floor under a body that lands
 /// keeps it from the sides of the tiles. So contacts of pairs that can meet across one side alone,
@@ -88,7 +89,6 @@ class AnticipatedContacts {
     StoppedMotion<Dim> motion_;
     std::vector<Encounter> encounters_;
     std::vector<std::size_t> disputed_;     // encounters
-    std::vector<bool> in_dispute_;          // bodies
     std::vector<ContactPoint<Dim>> found_;  // by encounter; disputed ones also in the end
     std::vector<ContactPoint<Dim>> near_, result_;
 };
@@ -105,7 +105,6 @@ TALUS_OF_ANTICIPATED(void)::begin(const Bodies<Dim>& bodies, std::span<const Twi
     encounters_.reserve(usual);
     disputed_.reserve(usual);
     found_.reserve(4 * usual);
-    in_dispute_.assign(bodies.count(), false);
     bodies_ = &bodies;
     tolerance_ = tolerance;
     motion_.begin(bodies, motion);
@@ -132,15 +131,15 @@ TALUS_OF_ANTICIPATED(void)::add(const Encounter& pair, std::span<const ContactPo
         return;
     }
     const auto children = [](const ContactPoint<Dim>& c) {
-        return std::pair(c.feature.code >> 52, c.feature.code >> 20 & 0xfff);
+        return std::pair(child_of_a(c.feature), child_of_b(c.feature));
     };
     for (auto first = points.begin(); first != points.end();) {
         const auto last = std::find_if(first, points.end(), [&](const ContactPoint<Dim>& c) {
             return children(c) != children(*first);
         });
         Encounter part = pair;
-        part.child_a = static_cast<std::uint32_t>(children(*first).first);
-        part.child_b = static_cast<std::uint32_t>(children(*first).second);
+        part.child_a = children(*first).first;
+        part.child_b = children(*first).second;
         if (pair.shape_a.kind() == ShapeKind::compound)
             part.shape_a = pair.shape_a.child(part.child_a);
         if (pair.shape_b.kind() == ShapeKind::compound)
@@ -208,14 +207,11 @@ TALUS_OF_ANTICIPATED(bool)::hold_up_bodies(const Encounter& e) {
 
 TALUS_OF_ANTICIPATED(void)::decide_disputes() {
     for (const std::size_t k : disputed_)
-        for (const BodyIndex i : {encounters_[k].a, encounters_[k].b})
-            if (motion_.is_free(i)) in_dispute_[static_cast<std::size_t>(i)] = true;
+        for (const BodyIndex i : {encounters_[k].a, encounters_[k].b}) motion_.release(i);
     for (const Encounter& e : encounters_)
-        if (!e.meeting.disputed && (in_dispute_[static_cast<std::size_t>(e.a)] ||
-                                    in_dispute_[static_cast<std::size_t>(e.b)]))
+        if (!e.meeting.disputed && (motion_.is_released(e.a) || motion_.is_released(e.b)))
             hold_up_bodies(e);
-    for (std::size_t i = 0; i < in_dispute_.size(); ++i)
-        if (in_dispute_[i]) motion_.settle(static_cast<BodyIndex>(i));
+    for (std::size_t i = 0; i < bodies_->count(); ++i) motion_.settle(static_cast<BodyIndex>(i));
     std::sort(disputed_.begin(), disputed_.end(), [&](std::size_t j, std::size_t k) {
         const double first = encounters_[j].meeting.after, second = encounters_[k].meeting.after;
         return first != second ? first < second : j < k;
@@ -228,8 +224,7 @@ TALUS_OF_ANTICIPATED(void)::decide_disputes() {
             if (concerns(e) && has_sides(e)) judge(e);
         }
         if (!hold_up_bodies(e)) continue;
-        for (const BodyIndex i : {e.a, e.b})
-            if (motion_.is_free(i)) motion_.settle(i);
+        for (const BodyIndex i : {e.a, e.b}) motion_.settle(i);
     }
 }
 

@@ -26,7 +26,8 @@ class ContactDetection {
     /// centre, infinite for unbounded shapes; `skin` is the widening of new boxes: a larger one
     /// gives more candidates, kept for longer. All in [m]. `version` is another number whenever
     /// some shape is another. If `motion` is given, of each body over one step [m, rad], contacts
-    /// of gap > `tolerance` are those that it leads to (anticipated_contacts.hpp).
+    /// are those that it leads to (anticipated_contacts.hpp), where that differs; of bodies that
+    /// touch, gap <= `tolerance`, only if they slide past that side.
     void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, std::uint64_t version,
                 std::span<const double> radius, double skin, std::span<const double> reach,
                 std::span<const Twist<Dim>> motion, double tolerance, ContactSet<Dim>& contacts) {

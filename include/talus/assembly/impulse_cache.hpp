@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/contact_set.hpp>
+#include <talus/core/room.hpp>
 #include <talus/problem/contact_problem.hpp>
 
 #include <cstddef>
@@ -38,6 +39,7 @@ class ImpulseCache {
     /// Replaces the memory by the impulses r (local axes) of these contacts.
     void store(const ContactSet<Dim>& contacts, const ContactJacobian<Dim>& jacobian,
                std::span<const Vector<Dim>> r) {
+        detail::make_room(key_, r.size());
         key_.assign(contacts.key.begin(), contacts.key.end());
         impulse_.resize(r.size());
         for (std::size_t c = 0; c < r.size(); ++c)

@@ -31,18 +31,25 @@ class StoppedMotion {
         bodies_ = &bodies;
         motion_.assign(free.begin(), free.end());
         newest_.assign(bodies.count(), none);
+        released_.assign(bodies.count(), false);
         changed_.assign(bodies.count(), false);
         stops_.clear();
         stops_.reserve(256);  // of a few bodies
     }
-    /// The contact is to hold up its bodies from the next `settle` on. Displacements below `noise`
-    /// [m] do not matter. True if it has to.
+    /// Lets stops change the motion of the body, unless it is an obstacle. Until then it goes on as
+    /// it does: what carries it is not among the stops.
+    void release(BodyIndex i) {
+        const auto k = static_cast<std::size_t>(i);
+        released_[k] = !bodies_->is_obstacle(k);
+    }
+    bool is_released(BodyIndex i) const { return released_[static_cast<std::size_t>(i)]; }
+    /// The contact, of which one body at least is released, is to hold up its bodies from the next
+    /// `settle` on. Displacements below `noise` [m] do not matter. True if it has to.
     bool add(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& point, double noise);
     /// Lets all stops of the body act.
     void settle(BodyIndex i);
     bool is_changed(BodyIndex i) const { return changed_[static_cast<std::size_t>(i)]; }
     const Twist<Dim>& motion(BodyIndex i) const { return motion_[static_cast<std::size_t>(i)]; }
-    bool is_free(BodyIndex i) const { return !bodies_->is_obstacle(static_cast<std::size_t>(i)); }
 
   private:
     static constexpr int sweeps = 4;
@@ -66,7 +73,8 @@ class StoppedMotion {
     const Bodies<Dim>* bodies_ = nullptr;
     std::vector<Twist<Dim>> motion_;
     std::vector<std::size_t> newest_;  ///< stop of each free body
-    std::vector<bool> changed_;        ///< the body's motion is not the free one
+    std::vector<bool> released_;
+    std::vector<bool> changed_;  ///< the body's motion is not the free one
     std::vector<Stop> stops_;
 };
 
@@ -79,9 +87,10 @@ bool StoppedMotion<Dim>::add(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& 
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
         const auto i = static_cast<std::size_t>(stop.body[k]);
         const double sign = k == 0 ? 1.0 : -1.0;
+        if (is_released(stop.body[k])) stop.next[k] = std::exchange(newest_[i], stops_.size());
+        if (motion_[i].angular.norm() > Foresight::most_turn) continue;  // ends nobody knows where
         const Vector<Dim> arm = point.point - 0.5 * sign * point.slide - bodies_->position[i];
         stop.turning += sign * point.normal.dot(cross<Dim>(motion_[i].angular, arm));
-        if (is_free(stop.body[k])) stop.next[k] = std::exchange(newest_[i], stops_.size());
     }
     stops_.push_back(stop);
     return change(stop) < -noise;
@@ -92,14 +101,16 @@ requires SpaceDimension<Dim>
 bool StoppedMotion<Dim>::act(Stop& stop) {
     const auto a = static_cast<std::size_t>(stop.body[0]);
     const auto b = static_cast<std::size_t>(stop.body[1]);
-    const double ease_a = bodies_->inverse_mass[a], ease_b = bodies_->inverse_mass[b];
-    const double push = std::max(stop.push - change(stop) / (ease_a + ease_b), 0.0);
+    const double inverse_a = released_[a] ? bodies_->inverse_mass[a] : 0.0;
+    const double inverse_b = released_[b] ? bodies_->inverse_mass[b] : 0.0;
+    const double push = std::max(stop.push - change(stop) / (inverse_a + inverse_b), 0.0);
     const double more = push - stop.push;
-    if (std::abs(more) * (ease_a + ease_b) <= stop.noise) return false;
+    if (std::abs(more) * (inverse_a + inverse_b) <= stop.noise) return false;
     stop.push = push;
-    changed_[a] = changed_[b] = true;
-    motion_[a].linear += more * ease_a * stop.normal;
-    motion_[b].linear -= more * ease_b * stop.normal;
+    motion_[a].linear += more * inverse_a * stop.normal;
+    motion_[b].linear -= more * inverse_b * stop.normal;
+    changed_[a] = changed_[a] || released_[a];
+    changed_[b] = changed_[b] || released_[b];
     return true;
 }
 

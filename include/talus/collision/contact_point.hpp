@@ -17,7 +17,8 @@ namespace talus {
 template <int Dim>
 requires SpaceDimension<Dim>
 struct ContactPoint {
-    /// One place for both bodies, half-way between the two surfaces [m].
+    /// One place for both bodies, half-way between the two surfaces; where `slide` is not zero,
+    /// half-way between the places on them that will meet [m].
     Vector<Dim> point = Vector<Dim>::Zero();
     Vector<Dim> normal = Vector<Dim>::Zero();  ///< unit, world axes, from B towards A
     double gap = 0.0;                          ///< signed distance along the normal [m]

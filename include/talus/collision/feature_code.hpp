@@ -20,6 +20,8 @@ struct Feature {
     std::uint32_t child = 0;  ///< below 2^12
 };
 
+inline constexpr std::uint64_t child_bits = 0xfff;
+
 /// The code of two touching features: for each shape 12 bits of child, 2 of kind, 18 of index, the
 /// shape A in the upper half. Codes are thus different for different pairs of features.
 constexpr FeatureId feature_code(const Feature& a, const Feature& b) {
@@ -32,12 +34,20 @@ constexpr FeatureId feature_code(const Feature& a, const Feature& b) {
 /// The same code with the two shapes exchanged.
 constexpr FeatureId mirrored(FeatureId id) { return {id.code << 32 | id.code >> 32}; }
 
-/// The code of a child of A's, or of B's, from the code it gets as if it were alone.
+/// The code of a child of A's, or of B's, from the code it gets as if it were alone, whose bits for
+/// the number of a child are lost.
 constexpr FeatureId with_child_of_a(FeatureId id, std::uint32_t child) {
-    return {id.code | std::uint64_t{child} << 52};
+    return {(id.code & ~(child_bits << 52)) | std::uint64_t{child} << 52};
 }
 constexpr FeatureId with_child_of_b(FeatureId id, std::uint32_t child) {
-    return {id.code | std::uint64_t{child} << 20};
+    return {(id.code & ~(child_bits << 20)) | std::uint64_t{child} << 20};
+}
+/// The numbers of the children of A and of B.
+constexpr std::uint32_t child_of_a(FeatureId id) {
+    return static_cast<std::uint32_t>(id.code >> 52 & child_bits);
+}
+constexpr std::uint32_t child_of_b(FeatureId id) {
+    return static_cast<std::uint32_t>(id.code >> 20 & child_bits);
 }
 
 /// Turns contacts of B with A into contacts of A with B.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/concepts.hpp>
+#include <talus/core/room.hpp>
 
 #include <algorithm>
 #include <array>
@@ -189,6 +190,7 @@ class HierarchicalGrid {
             place_.assign(bodies + 1, 0);
             for (const CandidatePair& p : pairs) ++place_[index(p.*key) + 1];
             for (std::size_t k = 0; k < bodies; ++k) place_[k + 1] += place_[k];
+            detail::make_room(unsorted_pairs_, pairs.size());
             unsorted_pairs_.assign(pairs.begin(), pairs.end());
             for (const CandidatePair& p : unsorted_pairs_) pairs[place_[index(p.*key)]++] = p;
         }

@@ -15,7 +15,8 @@ namespace talus {
 
 /// Contact routine for a pair of one's own shape types, preferred to everything talus knows:
 /// specialise with a static function `append` of the signature of contact_points. One order of the
-/// two types is enough, the other is served by mirroring.
+/// two types is enough, the other is served by mirroring. Codes of features are one's own, but of
+/// children of compounds bits 20 to 31 and 52 to 63 give way to the numbers of the children.
 template <int Dim, class A, class B>
 struct PairContacts {};
 

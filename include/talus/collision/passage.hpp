@@ -82,11 +82,11 @@ struct Meeting {
 /// that meet do so across it.
 ///
 /// sep(n, s) = min over A of n.x - max over B of n.x with both bodies s steps ahead. An axis
-/// qualifies if sep(n, 0) >= -slack, and is lost at the first s at which sep(n, s) < -slack; it is
-/// held if it is at none. Tried are the normal of the nearest points and those of all faces; then,
-/// where the best of them is lost, the narrow phase names the next, as in conservative advancement.
-/// If that one does not separate the bodies now, they pass a corner of each other: between the two
-/// is an axis across the motion that does so all the way.
+/// qualifies if sep(n, 0) >= -slack, and is lost at the first s at which sep(n, s) < -slack, taken
+/// to be linear within a step; it is held if it is at none. Tried are the normal of the nearest
+/// points and those of all faces; then, where the best of them is lost, the narrow phase names the
+/// next, as in conservative advancement. If that one does not separate the bodies now, they pass a
+/// corner of each other: between the two is an axis across the motion that does so all the way.
 template <int Dim>
 requires SpaceDimension<Dim>
 class Passage {
@@ -328,7 +328,7 @@ TALUS_OF_PASSAGE(ContactPoint<Dim>)::of_foremost_points(FeatureId feature, const
     const Vector<Dim>& n = axis.normal;
     const Vector<Dim> on_a = a_.foremost(-n, a_.pose), on_b = b_.foremost(n, b_.pose);
     const Vector<Dim> apart = on_a - on_b;
-    return {0.5 * (on_a + on_b), n, axis.now, feature, n.dot(apart) * n - apart};
+    return {0.5 * (on_a + on_b), n, axis.now, feature, -apart};
 }
 
 TALUS_OF_PASSAGE(void)::append_near(double least_gap, std::vector<ContactPoint<Dim>>& out) {

@@ -51,6 +51,12 @@ struct PrescribedMotion {
         return result;
     }
 
+    /// How far the shape goes from time t to t + h, whatever its surface does [m, rad].
+    Twist<Dim> displacement(double t, double h) const {
+        const Pose<Dim> from = pose(t), to = pose(t + h);
+        return {to.position - from.position, (to.rotation * from.rotation.inverse()).log()};
+    }
+
     /// Moves from `start` (at time 0) with constant velocity and spin.
     static PrescribedMotion uniform(const Pose<Dim>& start, const Twist<Dim>& v) {
         require_finite("position of the obstacle", start.position);

@@ -3,6 +3,7 @@
 
 #include <talus/core/cross.hpp>
 #include <talus/core/ids.hpp>
+#include <talus/core/room.hpp>
 #include <talus/law/concepts.hpp>
 
 #include <cstddef>
@@ -26,6 +27,14 @@ struct ContactJacobian {
     std::vector<Vector<Dim>> arm_a, arm_b;  ///< from the centres to the contact point [m]
 
     std::size_t contact_count() const { return a.size(); }
+    /// For n contacts, with some to spare.
+    void make_room(std::size_t n) {
+        detail::make_room(a, n);
+        detail::make_room(b, n);
+        detail::make_room(frame, n);
+        detail::make_room(arm_a, n);
+        detail::make_room(arm_b, n);
+    }
     void resize(std::size_t n) {
         a.resize(n);
         b.resize(n);

@@ -103,7 +103,8 @@ class DelassusProduct {
     }
 
     /// Writes to label[i] a number below contact_count() that contact i shares with the contacts
-    /// that chains of free bodies connect with it, and with no other.
+    /// that chains of free bodies connect with it, and with no other. Not for concurrent use of one
+    /// operator.
     void islands(std::span<std::uint32_t> label) const {
         const auto free = [&](BodyIndex k) {
             const Body& x = bodies_[static_cast<std::size_t>(k)];
@@ -225,7 +226,7 @@ class RigidBodyOperators {
     template <class F>
     decltype(auto) with(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
                         F&& f) {
-        if constexpr (Dim == 3) {
+        if constexpr (rotation_dof < Dim >> 1) {
             if (!has_scalar_inertia(inverse_mass)) {
                 tensor_.assign(jacobian, inverse_mass);
                 return f(tensor_);

@@ -69,14 +69,14 @@ class DelassusSparse {
         for (std::size_t i = 0; i < contact_count(); ++i) u[i] = row_times(i, r);
     }
     /// Writes to label[i] a number below contact_count() that contact i shares with those that
-    /// chains of blocks which are not zero connect with it, and with no other.
+    /// chains of blocks which are not zero connect with it, and with no other. Not for concurrent
+    /// use of one operator.
     void islands(std::span<std::uint32_t> label) const {
-        Islands islands;
-        islands.reset(contact_count());
+        islands_.reset(contact_count());
         for (std::size_t i = 0; i < contact_count(); ++i)
             for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k)
-                if (!value_[k].is_zero()) islands.join(i, column_[k]);
-        for (std::size_t i = 0; i < contact_count(); ++i) label[i] = islands.root(i);
+                if (!value_[k].is_zero()) islands_.join(i, column_[k]);
+        for (std::size_t i = 0; i < contact_count(); ++i) label[i] = islands_.root(i);
     }
     /// Takes the impulses in.
     void start(std::span<const Vector<Rows>> r) {
@@ -123,6 +123,7 @@ class DelassusSparse {
     std::vector<Matrix<Rows>> value_;
     std::vector<std::size_t> diagonal_;  ///< place of W_ii in value_
     std::vector<Vector<Rows>> impulse_;
+    mutable Islands islands_;
 };
 
 template <int Rows>

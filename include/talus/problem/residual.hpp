@@ -169,8 +169,10 @@ class ContactScales {
 /// not counted as an error. A tenth of it is asked for, since the worst of many contacts is some
 /// way above their mean: in piles at rest zeta is some 400 eta.
 ///
-/// What it means for motion. A contact's overlap grows by no more than 10 tolerance V h in a step
-/// for want of accuracy: at rest, where V = g h, by 1e-3 g h^2 at a tolerance of 1e-4.
+/// What it means for motion. A contact's overlap grows by no more than 10 tolerance V h sqrt(1 +
+/// mu^2) in a step for want of accuracy: at rest, where V = g h, by some 1e-3 g h^2 at a tolerance
+/// of 1e-4. A contact of an island that something fast has hit is judged in the scale of that: it
+/// may be left to fall freely for a step where its g h is a thousandth of the fastest violation.
 ///
 /// Conventions. 0/0 is 0. If the scale is 0 and the error is not (a law that attracts), eta and
 /// zeta are 1. A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Rows

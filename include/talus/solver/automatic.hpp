@@ -309,8 +309,7 @@ class Automatic {
     GaussSeidel<Dim, Law> gauss_seidel_;
     AcceleratedGaussSeidel<Dim, Law> accelerated_;
     ConeTeam<Dim, Law> team_;
-    DelassusProduct<Dim> product_;
-    DelassusProduct<Dim, double> scalar_product_;
+    RigidBodyOperators<Dim> bodies_;
     ResidualMeasure<Dim> measure_;
     ImpulseMemory<Dim> memory_;
     std::vector<Vector<Dim>> velocity_;
@@ -328,13 +327,11 @@ template <int Dim, ContactLaw<Dim> Law>
 const SolveReport& Automatic<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
                                               std::span<Vector<Dim>> r) {
     const auto solve_with = [&](auto& w) -> const SolveReport& {
-        w.assign(problem.jacobian, problem.inverse_mass);
         return run(Task<std::remove_reference_t<decltype(w)>>{
             w, problem.free_velocity, problem.laws, r, static_cast<double>(problem.contact_count()),
             nullptr, [&problem] { return BodyMap<Dim>(problem.jacobian, problem.inverse_mass); }});
     };
-    if (has_scalar_inertia(problem.inverse_mass)) return solve_with(scalar_product_);
-    return solve_with(product_);
+    return bodies_.with(problem.jacobian, problem.inverse_mass, solve_with);
 }
 
 template <int Dim, ContactLaw<Dim> Law>

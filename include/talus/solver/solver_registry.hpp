@@ -32,10 +32,19 @@ struct RegistryEntry {
     AnySolver<Dim, Law> (*make)(SolverSettings);
 };
 
-/// A solver with settings; all else stays as its own parameters have it.
-template <class Solver>
+/// Leaves a solver's parameters as they are.
+struct AsTheyAre {
+    static void set(auto&) {}
+};
+struct WithMomentum {
+    static void set(auto& params) { params.acceleration = Acceleration::nesterov; }
+};
+
+/// A solver with settings; all else stays as its own parameters have it, or as `Own` sets them.
+template <class Solver, class Own>
 Solver with_settings(SolverSettings settings) {
     Solver solver;
+    Own::set(solver.params);
     solver.params.tolerance = settings.tolerance;
     // Solvers that count sweeps call their limit so.
     if constexpr (requires { solver.params.max_sweeps; })
@@ -44,10 +53,10 @@ Solver with_settings(SolverSettings settings) {
         solver.params.max_iterations = settings.max_iterations;
     return solver;
 }
-template <int Dim, class Law, class Solver>
+template <int Dim, class Law, class Solver, class Own = AsTheyAre>
 constexpr RegistryEntry<Dim, Law> entry(std::string_view name, std::string_view description) {
     return {{name, description}, [](SolverSettings settings) {
-                return AnySolver<Dim, Law>(with_settings<Solver>(settings));
+                return AnySolver<Dim, Law>(with_settings<Solver, Own>(settings));
             }};
 }
 
@@ -58,15 +67,18 @@ constexpr auto registry_entries() {
         entry<Dim, Law, Automatic<Dim, Law>>(
             "automatic", "hands over between the others; the one to use where nothing is known"),
         entry<Dim, Law, GaussSeidel<Dim, Law>>("gauss_seidel",
-                                               "sweeps; the cheapest to 1e-3 and 1e-4"),
+                                               "sweeps; the cheapest to 1e-2 and 1e-3"),
         entry<Dim, Law, AcceleratedGaussSeidel<Dim, Law>>(
             "accelerated_gauss_seidel", "double sweeps, combined by Anderson; to 1e-8"),
+        entry<Dim, Law, AcceleratedGaussSeidel<Dim, Law>, WithMomentum>(
+            "momentum_gauss_seidel", "double sweeps with momentum; the default of simulations"),
     };
     if constexpr (ConeLaw<Law, Dim>) {
         return std::array{
             any_law[0],
             any_law[1],
             any_law[2],
+            any_law[3],
             entry<Dim, Law, ProjectedGradient<Dim, Law>>(
                 "projected_gradient", "products with W alone; many contacts at 1e-4"),
             entry<Dim, Law, InteriorPoint<Dim, Law>>(

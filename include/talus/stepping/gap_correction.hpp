@@ -4,6 +4,7 @@
 #include <talus/assembly/apply_impulses.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/room.hpp>
 #include <talus/law/signorini.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/step_data.hpp>
@@ -52,6 +53,7 @@ class GapCorrection {
             budget_ += earned;
             return;
         }
+        detail::make_room(impulse_, data.contact_count());
         impulse_.assign(data.contact_count(), Vector<Dim>::Zero());
         solver_.params = params.solver;
         solver_.solve(problem_, std::span<Vector<Dim>>(impulse_));
@@ -81,6 +83,7 @@ class GapCorrection {
     bool pose_problem(const StepData<Dim, Law>& data) {
         bool overlap = false;
         const std::size_t n = data.contact_count();
+        detail::make_room(problem_.free_velocity, n);
         problem_.free_velocity.assign(n, Vector<Dim>::Zero());
         for (std::size_t c = 0; c < n; ++c) {
             const double gap =
@@ -90,6 +93,7 @@ class GapCorrection {
             overlap = overlap || gap < 0.0;
         }
         if (!overlap) return false;
+        problem_.jacobian.make_room(n);
         problem_.jacobian = data.problem.jacobian;
         problem_.inverse_mass = data.problem.inverse_mass;
         problem_.laws.resize(n);

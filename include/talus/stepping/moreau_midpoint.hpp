@@ -70,7 +70,11 @@ class MoreauMidpoint {
               Solver& solver, Data& data) {
         try {
             pose_problem(system, t_begin, h, params, data);
-            data.report = solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
+            const SolveReport& report =
+                solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
+            // As much room as the solver has: no history needs more.
+            data.report.history.reserve(report.history.capacity());
+            data.report = report;
             complete(system, data);
         } catch (...) {
             undo(system);
@@ -191,12 +195,17 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
     const std::size_t n = system.bodies.count();
     reach_.assign(n, 0.5 * params.contact_tolerance);
     motion_.clear();
-    if (params.scheme == Scheme::gap_anticipating)
+    if (params.scheme == Scheme::gap_anticipating) {
         for (std::size_t i = 0; i < n; ++i) {
             reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
                                                  system.gravity, data.h);
             motion_.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }
+        // The shape of a belt stands still.
+        for (const auto& [body, motion] : system.obstacles)
+            if (motion.surface_moves)
+                motion_[static_cast<std::size_t>(body)] = motion.displacement(data.t_mid(), data.h);
+    }
     detection_.detect(system.bodies, system.shapes(), system.shapes_version(),
                       system.bounding_radius(), params.skin * system.mean_bounding_radius(), reach_,
                       motion_, params.contact_tolerance, data.contacts);

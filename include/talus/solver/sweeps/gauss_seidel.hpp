@@ -46,7 +46,7 @@ requires(rows_of_bodies<Rows, Law>) struct RigidBodies<Rows, Law> {
 struct GaussSeidelParams {
     /// Sweeps allowed [-], not negative. Piles need some ten per layer of grains for 1e-3.
     int max_sweeps = 1000;
-    /// On the residual of problem/residual.hpp, relative, Euclidean norm [-]. 1e-3 shows in no
+    /// On the residual of problem/residual.hpp [-]. 1e-3 shows in no
     /// picture, 1e-6 is good for statistics of forces, 1e-12 is near rounding. Convergence is
     /// linear: each digit costs the same number of sweeps. 0 asks for all of max_sweeps.
     double tolerance = 1e-8;
