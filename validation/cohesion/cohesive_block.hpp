@@ -19,7 +19,10 @@ class CohesiveBlock {
     /// `force` is the cohesion [N].
     CohesiveBlock(Fault fault, double h, double mu, double force, const V<Dim>& gravity)
         : simulation_({{fault == Fault::friction_off ? 1.02 * mu : mu}, force * h},
-                      settings(h, fault), Solver({.max_sweeps = 2000, .tolerance = 1e-14})) {
+                      settings(h, fault),
+                      Solver({.max_iterations = 2000,
+                              .tolerance = 1e-14,
+                              .acceleration = talus::Acceleration::nesterov})) {
         simulation_.hooks().fault = fault;
         auto& system = simulation_.system();
         system.gravity = gravity;
@@ -39,7 +42,7 @@ class CohesiveBlock {
 
   private:
     using Contact = talus::CohesiveCoulomb<Dim>;
-    using Solver = talus::GaussSeidel<Dim, Contact>;
+    using Solver = talus::AcceleratedGaussSeidel<Dim, Contact>;  // that of simulations
 
     static talus::SimulationParams settings(double h, Fault fault) {
         talus::SimulationParams result;

@@ -51,9 +51,9 @@ struct PrescribedMotion {
         return result;
     }
 
-    /// How far the shape goes from time t to t + h, whatever its surface does [m, rad].
-    Twist<Dim> displacement(double t, double h) const {
-        const Pose<Dim> from = pose(t), to = pose(t + h);
+    /// How far the shape goes between two times [s], whatever its surface does [m, rad].
+    Twist<Dim> displacement(double begin, double end) const {
+        const Pose<Dim> from = pose(begin), to = pose(end);
         return {to.position - from.position, (to.rotation * from.rotation.inverse()).log()};
     }
 

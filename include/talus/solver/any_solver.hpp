@@ -116,7 +116,7 @@ struct SolverName {
 /// The solvers of the library by name, for a law; defined in solver/solver_registry.hpp. To have
 /// them compiled once (a minute or two per dimension), files include this header and say
 ///
-///   extern template struct talus::SolverRegistry<3, Law>;
+///     extern template struct talus::SolverRegistry<3, Law>;
 ///
 /// and one file includes solver_registry.hpp and says the same without `extern`.
 template <int Dim, ContactLaw<Dim> Law>

@@ -204,7 +204,8 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
         // The shape of a belt stands still.
         for (const auto& [body, motion] : system.obstacles)
             if (motion.surface_moves)
-                motion_[static_cast<std::size_t>(body)] = motion.displacement(data.t_mid(), data.h);
+                motion_[static_cast<std::size_t>(body)] =
+                    motion.displacement(data.t_mid(), data.t_mid() + data.h);
     }
     detection_.detect(system.bodies, system.shapes(), system.shapes_version(),
                       system.bounding_radius(), params.skin * system.mean_bounding_radius(), reach_,

@@ -35,7 +35,7 @@ struct NoGapCorrection {
 ///     struct Mine : SimulationTypes<3> {
 ///         using Solver = Automatic<3, Law>;
 ///     };
-///     Simulation<3, Mine> sim(...);
+///     Simulation<3, Mine> sim({Coulomb<3>{.mu = 0.4}});
 ///
 /// (In a template for both dimensions the law is `typename SimulationTypes<Dim>::Law`.)
 template <int Dim>

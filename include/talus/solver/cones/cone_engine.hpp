@@ -30,8 +30,8 @@ namespace talus {
 ///
 /// For programs of several files, which compile an engine once:
 ///
-///   extern template class talus::NewtonPolish<3, Law>;
-///   extern template class talus::ConeEngine<3, Law, talus::NewtonPolish<3, Law>>;
+///     extern template class talus::NewtonPolish<3, Law>;
+///     extern template class talus::ConeEngine<3, Law, talus::NewtonPolish<3, Law>>;
 template <int Dim, ConeLaw<Dim> Law, class Engine>
 class ConeEngine {
   public:
