@@ -29,7 +29,7 @@ void drop_ball() {
     const RunSummary run =
         sim.run(2.0, [&](const auto& s) { ledger.record(s.data(), s.system().bodies); });
 
-    const double speed = system.bodies.velocity[static_cast<std::size_t>(ball)][0];
+    const double speed = system.bodies.velocity[ball][0];
     std::printf("%dD: rolls at %.12f m/s (exact %.12f), energy books close to %.0e\n    %s\n", Dim,
                 speed, Dim == 2 ? 2.0 : 15.0 / 7.0, ledger.closure(), to_string(run).c_str());
 }

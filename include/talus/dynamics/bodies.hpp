@@ -3,14 +3,15 @@
 
 #include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/per_body.hpp>
 #include <talus/spatial/inertia.hpp>
 #include <talus/spatial/pose.hpp>
 #include <talus/spatial/twist.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 namespace talus {
 
@@ -22,24 +23,30 @@ template <int Dim>
 requires SpaceDimension<Dim>
 struct Bodies {
     // State q, u.
-    std::vector<Vector<Dim>> position;     ///< of the mass centre [m]
-    std::vector<Rotation<Dim>> rotation;   ///< body axes to world axes
-    std::vector<Vector<Dim>> velocity;     ///< of the mass centre, world axes [m/s]
-    std::vector<AngularVector<Dim>> spin;  ///< **body** axes [rad/s]
+    PerBody<Vector<Dim>> position;     ///< of the mass centre [m]
+    PerBody<Rotation<Dim>> rotation;   ///< body axes to world axes
+    PerBody<Vector<Dim>> velocity;     ///< of the mass centre, world axes [m/s]
+    PerBody<AngularVector<Dim>> spin;  ///< **body** axes [rad/s]
 
     // Constants.
-    std::vector<double> inverse_mass;                 ///< 0 for obstacles [1/kg]
-    std::vector<AngularVector<Dim>> inverse_inertia;  ///< principal, 0: does not turn [1/(kg m^2)]
-    std::vector<MaterialIndex> material;
+    PerBody<double> inverse_mass;                 ///< 0 for obstacles [1/kg]
+    PerBody<AngularVector<Dim>> inverse_inertia;  ///< principal, 0: does not turn [1/(kg m^2)]
+    PerBody<MaterialIndex> material;
 
     std::size_t count() const { return position.size(); }
-    bool is_obstacle(std::size_t i) const { return inverse_mass[i] == 0.0; }
-    double mass(std::size_t i) const { return 1.0 / inverse_mass[i]; }  ///< infinite for obstacles
+    bool is_obstacle(std::integral auto i) const { return inverse_mass[i] == 0.0; }
+    double mass(std::integral auto i) const {
+        return 1.0 / inverse_mass[i];
+    }  ///< infinite for obstacles
     /// Principal moments [kg m^2]; infinite where the body does not turn.
-    AngularVector<Dim> inertia(std::size_t i) const { return inverse_inertia[i].cwiseInverse(); }
-    Pose<Dim> pose(std::size_t i) const { return {position[i], rotation[i]}; }
+    AngularVector<Dim> inertia(std::integral auto i) const {
+        return inverse_inertia[i].cwiseInverse();
+    }
+    Pose<Dim> pose(std::integral auto i) const { return {position[i], rotation[i]}; }
     /// World-axis twist.
-    Twist<Dim> twist(std::size_t i) const { return {velocity[i], rotation[i].spin_world(spin[i])}; }
+    Twist<Dim> twist(std::integral auto i) const {
+        return {velocity[i], rotation[i].spin_world(spin[i])};
+    }
 
     /// Adds a free body. Moments may be infinite: the body then does not turn (a point mass).
     /// Throws input_error for a mass or moment that is not positive, for moments that no mass

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/contact_set.hpp>
+#include <talus/core/per_body.hpp>
 #include <talus/core/types.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/solver/report.hpp>
@@ -22,11 +23,11 @@ struct StepData {
     double t_mid() const { return t_begin + 0.5 * h; }
     double t_end() const { return t_begin + h; }
 
-    std::vector<Wrench<Dim>> applied;            ///< user forces; empty if there are none
-    std::vector<AngularVector<Dim>> gyroscopic;  ///< change of body-axis spin; empty if all zero
-    std::vector<Twist<Dim>> begin;               ///< u_begin, world axes
-    std::vector<Twist<Dim>> free;                ///< u_free, world axes
-    std::vector<Twist<Dim>> end;                 ///< u_end, world axes
+    PerBody<Wrench<Dim>> applied;            ///< user forces; empty if there are none
+    PerBody<AngularVector<Dim>> gyroscopic;  ///< change of body-axis spin; empty if all zero
+    PerBody<Twist<Dim>> begin;               ///< u_begin, world axes
+    PerBody<Twist<Dim>> free;                ///< u_free, world axes
+    PerBody<Twist<Dim>> end;                 ///< u_end, world axes
 
     ContactSet<Dim> contacts;          ///< at the midpoint configuration
     ContactProblem<Dim, Law> problem;  ///< what the solver was given
