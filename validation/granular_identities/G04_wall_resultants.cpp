@@ -6,15 +6,19 @@
 namespace validation {
 namespace {
 
-/// Force and moment about the origin that floor and walls give to the balls.
+/// Force and moment about the origin that floor and walls give to the balls at these places.
 template <int Dim>
-talus::Wrench<Dim> from_walls(const Trial<Dim>& trial, const StepData<Dim>& data) {
+talus::Wrench<Dim> from_walls(const Trial<Dim>& trial, const talus::Bodies<Dim>& bodies,
+                              const StepData<Dim>& data) {
     const auto forces = measured_forces<Dim>(trial, data);
     talus::Wrench<Dim> sum;
     for (std::size_t c = 0; c < forces.size(); ++c) {
         const auto a = static_cast<std::size_t>(data.problem.jacobian.a[c]);
         if (BoxOfBalls<Dim>::is_ball(a)) continue;  // between balls
-        sum += talus::Wrench<Dim>::at(data.contacts.point[c], -forces[c]);
+        // A force acts where its arm ends.
+        const V<Dim> place =
+            bodies.position[data.problem.jacobian.b[c]] + data.problem.jacobian.arm_b[c];
+        sum += talus::Wrench<Dim>::at(place, -forces[c]);
     }
     return sum;
 }
@@ -30,7 +34,7 @@ void run(Trial<Dim>& trial) {
     Series vertical{"force of floor and walls / weight", {}, {}};
     falling.run(settling_time, [&](const World<Dim>& w) {
         const double h = w.params().h;
-        const V<Dim> walls = from_walls<Dim>(trial, w.data()).force;
+        const V<Dim> walls = from_walls<Dim>(trial, w.bodies(), w.data()).force;
         V<Dim> others = -weight * up<Dim>();
         for (const auto& wrench : w.data().applied) others += wrench.force;
         const V<Dim> after = talus::momentum<Dim>(w.bodies()).linear;
@@ -53,7 +57,7 @@ void run(Trial<Dim>& trial) {
     const auto report = world.equilibrium(falling.impulse_cache());
     trial.holds("the heap is at rest", report.verdict == talus::Verdict::equilibrium ||
                                            report.speed < 1e-4 * report.load_speed);
-    const auto walls = from_walls<Dim>(trial, report.data);
+    const auto walls = from_walls<Dim>(trial, world.bodies(), report.data);
     talus::Wrench<Dim> expected;
     for (std::size_t i = BoxOfBalls<Dim>::walls; i < world.bodies().count(); ++i)
         expected += talus::Wrench<Dim>::at(world.bodies().position[i], box.mass * g * up<Dim>());

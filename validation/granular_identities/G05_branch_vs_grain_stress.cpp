@@ -46,9 +46,11 @@ void run(Trial<Dim>& trial) {
     // Grain by grain about a common origin: right only if every grain is in equilibrium.
     talus::Matrix<Dim> grains = talus::Matrix<Dim>::Zero();
     for (std::size_t c = 0; c < forces.size(); ++c) {
-        const V<Dim>& x = data.contacts.point[c];
-        if (is_ball(static_cast<std::size_t>(j.a[c]))) grains += x * forces[c].transpose();
-        if (is_ball(static_cast<std::size_t>(j.b[c]))) grains -= x * forces[c].transpose();
+        // A force acts where its arm ends.
+        const V<Dim> on_a = world.bodies().position[j.a[c]] + j.arm_a[c];
+        const V<Dim> on_b = world.bodies().position[j.b[c]] + j.arm_b[c];
+        if (is_ball(static_cast<std::size_t>(j.a[c]))) grains += on_a * forces[c].transpose();
+        if (is_ball(static_cast<std::size_t>(j.b[c]))) grains -= on_b * forces[c].transpose();
     }
     const talus::Matrix<Dim> branches = talus::branch_moment<Dim>(j, forces, is_ball);
     const double scale = branches.norm();

@@ -213,11 +213,6 @@ void AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper) {
     kept_.assign(r.begin(), r.end());
     best_ = {.relative = std::numeric_limits<double>::infinity()};
     if (verify(sweeper, 0)) return;
-    // A start that is worse than none.
-    if (best_.relative > 1.0) {
-        std::fill(r.begin(), r.end(), Vector<Dim>::Zero());
-        if (verify(sweeper, 0)) return;
-    }
     iterate(sweeper);
     if (report_.status == SolveStatus::iteration_limit && best_.relative < report_.residual) {
         std::copy(kept_.begin(), kept_.end(), r.begin());
@@ -246,6 +241,14 @@ void AcceleratedGaussSeidel<Dim, Law>::iterate(Sweeper& sweeper) {
     constexpr int rounds = 4, smoothing = 10, first_try = 30, plain = 1000;
     for (int round = 0;; ++round) {
         if (run(sweeper, Way::own, params.patience)) return;
+        if (round == 0 && best_.relative > 1.0) {
+            // The start has led nowhere: none is as good. (Not before: a jam that is remembered
+            // may look as bad in the scale of its loads, and yet be what holds.)
+            own_y_.assign(sweeper.r.size(), Vector<Dim>::Zero());
+            start_from(own_y_);
+            reset_momentum();
+            if (run(sweeper, Way::own, params.patience)) return;
+        }
         own_y_ = y_;
         params.acceleration == Acceleration::nesterov ? reset_memory() : reset_momentum();
         if (run(sweeper, Way::damped, smoothing)) return;
