@@ -72,7 +72,7 @@ void run(Trial<Dim>& trial) {
                                  .solver = {.max_sweeps = 2000, .tolerance = 1e-6},
                                  .prepares = true},
                                 0);
-    settled.run(0.6);
+    settled.run(1.0);
 
     const double tolerance = 1e-10;
     // Velocities answer to the residual through the softest motion of the heap.

@@ -15,8 +15,9 @@ double floor_velocity(double t) { return amplitude * rate * std::sin(rate * t); 
 template <int Dim>
 void falling_heap(Trial<Dim>& trial, bool shaken, double e) {
     const WalledBox<Dim> box{Dim == 2 ? 4 : 3, Dim == 2 ? 5 : 3};
-    auto world = trial.world(
-        {.h = h, .contact = law<Dim>(mu, e, e), .solver = {.max_sweeps = 5000, .tolerance = 1e-6}});
+    auto world = trial.world({.h = h,
+                              .contact = law<Dim>(mu, e, e),
+                              .solver = {.max_sweeps = 50000, .tolerance = 1e-6}});
     if (shaken)
         world.add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0},
                            talus::PrescribedMotion<Dim>::shifted(
