@@ -285,9 +285,11 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_that_lands_on_free_tiles_keeps_its_speed_alo
     for (double across : {2.0, 5.0})
         for (double height : {0.03, 0.041, 0.06}) {  // above the floor at the first midpoint
             auto sim = anticipating<Dim>(0.0, 1e-2);
+            // No push along the tiles is exactly none, however far it is solved.
+            sim.solver().params.tolerance = 1e-5;
             sim.system().add_obstacle(talus::HalfSpace<Dim>(up<Dim>(), -0.2));
             const auto a_tile = block<Dim>(0.5 * tile, 0.1, 0.5);
-            for (const auto& pose : tile_poses<Dim>(0.0)) sim.system().add(a_tile, 1000.0, pose);
+            for (const auto& pose : tile_poses<Dim>(0.0, 8)) sim.system().add(a_tile, 1000.0, pose);
             const auto box = static_cast<std::size_t>(sim.system().add(
                 block<Dim>(half_box, half_box, half_box), 1000.0,
                 {in_plane<Dim>(start, height + half_box), {}}, {in_plane<Dim>(across, -5.0)}));
