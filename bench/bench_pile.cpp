@@ -7,6 +7,7 @@
 // all. Then warm steps of piles of spheres that have come to rest, to residuals from 1e-3 to 1e-6.
 #include <talus/sample/granulometry.hpp>
 #include <talus/sample/random_scene.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/simulation.hpp>
 
 #include <benchmark/benchmark.h>

@@ -5,6 +5,7 @@
 
 #include <talus/sample/granulometry.hpp>
 #include <talus/sample/random_scene.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/simulation.hpp>
 
 #include <algorithm>

@@ -20,7 +20,7 @@ struct Options {
     double step = 5e-4;       ///< h [s]
     std::string solver;       ///< name in the library's registry; empty: that of simulations
     double tolerance = 1e-4;  ///< on the residual: as simulations have it
-    double max_sweeps = 5000;
+    double max_sweeps = 20000;
     std::string scheme = "anticipating";
     double correction = 0.0;       ///< share of overlaps removed per step
     std::string out = "pile-out";  ///< folder

@@ -98,7 +98,7 @@ inline std::optional<Options> read_options(int argc, char** argv) {
                "on the residual of every step: of all contacts together, and a tenth of the worst "
                "one's (1e-4); 1e-8 is for the patient");
     add_number(app, "--max-sweeps", o.max_sweeps, 1, 1e9,
-               "sweeps, or what else the solver counts, allowed per step (5000); steps that miss "
+               "sweeps, or what else the solver counts, allowed per step (20000); steps that miss "
                "the tolerance are counted");
     app.add_option("--scheme", o.scheme,
                    "anticipating (contacts may close their gap but not more) or midpoint (the "

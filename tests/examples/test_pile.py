@@ -117,7 +117,7 @@ class Pile(unittest.TestCase):
     def test_help_teaches(self):
         result = self.run_pile("--help")
         self.assertEqual(result.returncode, 0)
-        for word in ("--scene", "--tolerance", "(1e-4)", "(5000)", "[s]", "Examples:", "Exit codes:", "/dev/stdout",
+        for word in ("--scene", "--tolerance", "(1e-4)", "(20000)", "[s]", "Examples:", "Exit codes:", "/dev/stdout",
                      "interior_point:"):
             self.assertIn(word, result.stdout)
 

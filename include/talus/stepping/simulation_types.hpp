@@ -19,7 +19,7 @@ namespace talus {
 /// hundredth.
 struct DefaultSolver {
     static constexpr AcceleratedGaussSeidelParams params{
-        .max_iterations = 5000, .tolerance = 1e-4, .acceleration = Acceleration::nesterov};
+        .max_iterations = 20000, .tolerance = 1e-4, .acceleration = Acceleration::nesterov};
 };
 
 /// A simulation without correction of positions: the paper's, and the default. Costs nothing.
