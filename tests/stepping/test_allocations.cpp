@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_steady_step_allocates_nothing, D, dimensions) {
         params.step.scheme = scheme;
         auto sim = heap<Dim, Corrected<Dim>>(Dim == 2 ? 6 : 3, 5, law<Dim>(0.4), 2e-3, params);
         sim.gap_correction().params.fraction = 0.1;
-        BOOST_CHECK_EQUAL(allocating_steps(sim, 1.6, 0.8), 0u);
+        BOOST_CHECK_EQUAL(allocating_steps(sim, 2.2, 1.0), 0u);
         BOOST_CHECK_GT(sim.data().contact_count(), 20u);
     }
 }
