@@ -4,6 +4,7 @@
 #include <talus/solver/any_solver.hpp>
 #include <talus/stepping/simulation_types.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,7 +15,8 @@
 
 namespace pile {
 
-/// The solver of the library that was asked for by name, or that of simulations by default.
+/// The solver of the library that was asked for by name; or by default that of simulations, and
+/// `automatic` for the few problems that it does not solve.
 ///
 /// The library is compiled with solvers by name for Coulomb's law alone. Restitution only shifts
 /// the free velocity, and assembly has done that: what is solved is Coulomb's law.
@@ -29,13 +31,26 @@ class ChosenSolver {
         : default_(talus::DefaultSolver::params) {
         default_.params.tolerance = settings.tolerance;
         default_.params.max_iterations = settings.max_iterations;
-        if (!name.empty())
-            named_.emplace(talus::make_solver<Dim, talus::Coulomb<Dim>>(name, settings));
+        is_default_ = name.empty();
+        named_.emplace(talus::make_solver<Dim, talus::Coulomb<Dim>>(
+            is_default_ ? "automatic" : name, settings));
     }
 
     const talus::SolveReport& solve(const talus::ContactProblem<Dim, Law>& problem,
                                     std::span<talus::Vector<Dim>> r) {
-        if (!named_) return default_.solve(problem, r);
+        if (!is_default_) return solve_with_named(problem, r);
+        const talus::SolveReport& first = default_.solve(problem, r);
+        if (first.status == talus::SolveStatus::converged) return first;
+        kept_.assign(r.begin(), r.end());
+        const talus::SolveReport& second = solve_with_named(problem, r);
+        if (second.residual < first.residual) return second;
+        std::copy(kept_.begin(), kept_.end(), r.begin());
+        return first;
+    }
+
+  private:
+    const talus::SolveReport& solve_with_named(const talus::ContactProblem<Dim, Law>& problem,
+                                               std::span<talus::Vector<Dim>> r) {
         problem_.inverse_mass = problem.inverse_mass;
         problem_.jacobian = problem.jacobian;
         problem_.free_velocity = problem.free_velocity;
@@ -44,9 +59,10 @@ class ChosenSolver {
         return named_->solve(problem_, r);
     }
 
-  private:
     talus::AcceleratedGaussSeidel<Dim, Law> default_;
     std::optional<talus::AnySolver<Dim, talus::Coulomb<Dim>>> named_;
+    bool is_default_ = true;
+    std::vector<talus::Vector<Dim>> kept_;
     talus::ContactProblem<Dim, talus::Coulomb<Dim>> problem_;  ///< what the named one is given
 };
 

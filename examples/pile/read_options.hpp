@@ -51,7 +51,8 @@ inline void check(const Options& o) {
 /// What --help says of solvers.
 inline std::string known_solvers() {
     std::string text =
-        "by name (Gauss-Seidel with momentum: the default of simulations), or one of:";
+        "by name (Gauss-Seidel with momentum, the default of simulations, and automatic for what "
+        "it does not solve), or one of:";
     for (const auto& [name, description] : talus::solver_names<3, talus::Coulomb<3>>())
         text += "\n" + std::string(name) + ": " + std::string(description);
     return text;
