@@ -8,18 +8,14 @@
 #include <vector>
 
 #include "common/dimensions.hpp"
+#include "common/in_plane.hpp"
 
 BOOST_AUTO_TEST_SUITE(assembly_stopped_motion)
 
 template <int Dim>
 struct Scene {
     using Vec = talus::Vector<Dim>;
-    static Vec at(double x, double y) {
-        Vec v = Vec::Zero();
-        v[0] = x;
-        v[Dim - 1] = y;
-        return v;
-    }
+    static Vec at(double x, double y) { return in_plane<Dim>(x, y); }
 
     talus::Bodies<Dim> bodies;
     std::vector<talus::Twist<Dim>> free;

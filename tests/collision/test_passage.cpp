@@ -8,18 +8,14 @@
 #include <vector>
 
 #include "common/dimensions.hpp"
+#include "common/in_plane.hpp"
 
 BOOST_AUTO_TEST_SUITE(collision_passage)
 
 template <int Dim>
 struct Flight {
     using Vec = talus::Vector<Dim>;
-    static Vec at(double x, double y) {
-        Vec v = Vec::Zero();
-        v[0] = x;
-        v[Dim - 1] = y;
-        return v;
-    }
+    static Vec at(double x, double y) { return in_plane<Dim>(x, y); }
     static constexpr double half = 0.1, reach = 0.3;
 
     std::vector<talus::ContactPoint<Dim>> contacts;

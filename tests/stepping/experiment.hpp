@@ -11,6 +11,8 @@
 #include <limits>
 #include <numbers>
 
+#include "common/in_plane.hpp"
+
 /// Set-ups shared by the validation cases that run as unit tests. Gravity acts along minus the last
 /// axis, the floor is x_last = 0, units are SI.
 namespace experiment {
@@ -35,14 +37,7 @@ V<Dim> up() {
     return V<Dim>::Unit(Dim - 1);
 }
 
-/// A vector in the plane of the first and the last axis.
-template <int Dim>
-V<Dim> in_plane(double first, double last) {
-    V<Dim> v = V<Dim>::Zero();
-    v[0] = first;
-    v[Dim - 1] = last;
-    return v;
-}
+using ::in_plane;
 
 /// The spin that rolls a body towards + the first axis on the floor, of magnitude w. In the plane
 /// that is clockwise, in space a turn about the second axis.

@@ -311,7 +311,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_that_lands_on_the_end_of_a_belt_stays_on_it,
             const double at = end * (1.0 - 0.01);  // all of it over the belt
             const auto box = static_cast<std::size_t>(
                 sim.system().add(block<Dim>(0.01, 0.01, 0.01), 1000.0,
-                                 {in_plane<Dim>(at, 0.02), {}}, {in_plane<Dim>(0.0, -2.0)}));
+                                 {in_plane<Dim>(at, 0.03), {}}, {in_plane<Dim>(0.0, -2.0)}));
             BOOST_CHECK_LT(sim.run(0.1).residual.value, accurate);
             BOOST_CHECK_SMALL(sim.system().bodies.position[box][0] - at, 1e-9);
             BOOST_CHECK_GT(sim.system().bodies.position[box][Dim - 1], 0.01 - 1e-6);

@@ -226,7 +226,7 @@ class RigidBodyOperators {
     template <class F>
     decltype(auto) with(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
                         F&& f) {
-        if constexpr (rotation_dof < Dim >> 1) {
+        if constexpr (rotation_dof<Dim> != 1) {
             if (!has_scalar_inertia(inverse_mass)) {
                 tensor_.assign(jacobian, inverse_mass);
                 return f(tensor_);

@@ -121,13 +121,16 @@ class AcceleratedGaussSeidel {
         void sweep_twice(Way way) override {
             constexpr double part = 0.4;
             const std::size_t n = task.r.size();
-            for (std::size_t k = 0; k < 2 * n; ++k) {
-                const std::size_t i = k < n ? k : way == Way::plain ? k - n : 2 * n - 1 - k;
-                if (way == Way::damped)
-                    kernel.visit_in_part(task, i, part);
-                else
-                    kernel.visit(task, i);
+            if (way == Way::damped) {
+                for (std::size_t i = 0; i < n; ++i) kernel.visit_in_part(task, i, part);
+                for (std::size_t i = n; i-- > 0;) kernel.visit_in_part(task, i, part);
+                return;
             }
+            for (std::size_t i = 0; i < n; ++i) kernel.visit(task, i);
+            if (way == Way::plain)
+                for (std::size_t i = 0; i < n; ++i) kernel.visit(task, i);
+            else
+                for (std::size_t i = n; i-- > 0;) kernel.visit(task, i);
         }
         void start() override { task.w.start(task.r); }
         Residual evaluate() override { return kernel.evaluate(task); }
