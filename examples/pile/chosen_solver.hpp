@@ -5,7 +5,6 @@
 #include <talus/stepping/simulation_types.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,12 +27,12 @@ class ChosenSolver {
     ChosenSolver() : ChosenSolver("", {}) {}
     /// An empty name: the default. Throws input_error that lists the names there are.
     ChosenSolver(const std::string& name, talus::SolverSettings settings)
-        : default_(talus::DefaultSolver::params) {
+        : default_(talus::DefaultSolver::params),
+          is_default_(name.empty()),
+          named_(talus::make_solver<Dim, talus::Coulomb<Dim>>(name.empty() ? "automatic" : name,
+                                                              settings)) {
         default_.params.tolerance = settings.tolerance;
         default_.params.max_iterations = settings.max_iterations;
-        is_default_ = name.empty();
-        named_.emplace(talus::make_solver<Dim, talus::Coulomb<Dim>>(
-            is_default_ ? "automatic" : name, settings));
     }
 
     const talus::SolveReport& solve(const talus::ContactProblem<Dim, Law>& problem,
@@ -56,12 +55,12 @@ class ChosenSolver {
         problem_.free_velocity = problem.free_velocity;
         problem_.laws.clear();
         for (const Law& law : problem.laws) problem_.laws.push_back(law.law);
-        return named_->solve(problem_, r);
+        return named_.solve(problem_, r);
     }
 
     talus::AcceleratedGaussSeidel<Dim, Law> default_;
-    std::optional<talus::AnySolver<Dim, talus::Coulomb<Dim>>> named_;
-    bool is_default_ = true;
+    bool is_default_;
+    talus::AnySolver<Dim, talus::Coulomb<Dim>> named_;
     std::vector<talus::Vector<Dim>> kept_;
     talus::ContactProblem<Dim, talus::Coulomb<Dim>> problem_;  ///< what the named one is given
 };

@@ -32,11 +32,12 @@ class CohesiveBlock {
     /// Makes the steps of a duration [s]; `on_step(time, velocity, position)` of the foot.
     template <class OnStep>
     void run(double duration, OnStep on_step) {
-        simulation_.run(duration, [&](const auto& s) {
-            worst_residual_ = std::max(worst_residual_, s.data().report.residual);
+        const auto look = [&](const auto& s) {
             const auto& bodies = s.system().bodies;
             on_step(s.time(), bodies.velocity[1], V<Dim>(bodies.position[1] - size * up<Dim>()));
-        });
+        };
+        const talus::RunSummary made = simulation_.run(duration, look);
+        worst_residual_ = std::max(worst_residual_, made.residual.value);
     }
     double worst_residual() const { return worst_residual_; }
 
