@@ -19,9 +19,7 @@ void block_on_incline(double mu) {
     Vector<Dim> half = Vector<Dim>::Constant(0.2);
     half[Dim - 1] = 0.1;
 
-    SimulationParams params{.h = 1e-2};
-    params.step.contact_tolerance = 1e-10;  // the box is placed "exactly" on the floor
-    Simulation<Dim> sim({Coulomb<Dim>{mu}}, params);
+    Simulation<Dim> sim({Coulomb<Dim>{mu}}, {.h = 1e-2});
     sim.solver().params.tolerance = 1e-12;
     auto& system = sim.system();
     system.gravity = -g * std::cos(slope) * up;  // axes along the incline

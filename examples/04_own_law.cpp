@@ -46,7 +46,7 @@ void slide() {
     const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
     const double mass = 2.0, drag = 0.05, never = std::numeric_limits<double>::infinity();
 
-    Simulation<Dim, Wet<Dim>> sim({drag}, {.h = 1e-2, .step = {.contact_tolerance = 1e-9}});
+    Simulation<Dim, Wet<Dim>> sim({drag}, {.h = 1e-2});
     auto& system = sim.system();
     system.gravity = -9.81 * up;
     system.add_obstacle(HalfSpace<Dim>{up, 0.0});

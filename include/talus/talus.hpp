@@ -20,6 +20,7 @@
 #include <talus/measure/penetration.hpp>
 #include <talus/measure/stress.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
+#include <talus/spatial/tilt.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>
 #include <talus/stepping/step_queries.hpp>

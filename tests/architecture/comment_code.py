@@ -15,6 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 INCLUDE = ROOT / "include"
 COMMENT_CODE = re.compile(r"^\s*///     (.*)$")
+FUNCTION_TEMPLATE = re.compile(r"^template <int Dim>\n([^;{]*?\))\s*{", re.MULTILINE)
 # Besides the header that the code is in.
 ALSO = ("talus/talus.hpp", "talus/solver/automatic.hpp", "algorithm", "cstdio")
 # What has to be refused, or else this test sees nothing.
@@ -30,9 +31,18 @@ def comment_blocks(text):
             yield block[0][0], "\n".join(COMMENT_CODE.match(line).group(1) for _, line in block)
 
 
+def instantiations(code):
+    """What makes the compiler look into the function templates of a page, in both dimensions."""
+    for signature in FUNCTION_TEMPLATE.findall(code):
+        for dim in "23":
+            made = re.sub(r"(\w+)\(", rf"\1<{dim}>(", signature.strip(), count=1)
+            yield f"template {re.sub(r'/[*].*?[*]/', '', made).replace('<Dim>', f'<{dim}>')};"
+
+
 def page_blocks(text):
     for match in re.finditer(r"```cpp\n(.*?)```", text, re.DOTALL):
-        yield text[:match.start()].count("\n") + 2, match.group(1)
+        code = match.group(1)
+        yield text[:match.start()].count("\n") + 2, "\n".join((code, *instantiations(code)))
 
 
 def all_blocks():

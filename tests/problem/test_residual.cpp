@@ -163,6 +163,53 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_fast_elsewhere_hides_nothing, D, dimension
     BOOST_TEST(talus::residual(p, std::span<const Vec>(r)).contact < 1e-12);
 }
 
+// A unit mass between two walls: W = (1, -1; -1, 1) along the normals.
+template <int Dim>
+talus::ContactProblem<Dim, talus::Signorini<Dim>> between_walls(double closing) {
+    using Vec = talus::Vector<Dim>;
+    auto p = twice(particle<Dim, talus::Signorini<Dim>>(-closing * Vec::Unit(0), {}));
+    p.jacobian.a[1] = p.jacobian.a[0];
+    p.jacobian.b[1] = p.jacobian.b[0];
+    p.jacobian.frame[1] = -p.jacobian.frame[0];
+    return p;
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(impulses_that_hide_a_violation_in_their_last_digits_are_refused, D,
+                              dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    const auto p = between_walls<dim>(0.02);
+    for (const double large : {0.0, 1.0, 1e6, 1e9, 1e12, 1e15, 1e16, 3e17}) {
+        const std::vector<Vec> r(2, large * Vec::Unit(0));
+        const auto found = talus::residual(p, std::span<const Vec>(r));
+        BOOST_TEST_INFO_SCOPE("impulses of " << large);
+        BOOST_TEST(found.contact > 0.99);
+        BOOST_TEST(found.relative > 0.099);
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_jam_that_a_solve_begins_with_is_no_violation, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    const auto p = between_walls<dim>(1e-16);  // which is what rounding makes of the jam
+    const std::vector<Vec> r(2, Vec::Unit(0));
+    talus::DelassusProduct<dim> w(p.jacobian, p.inverse_mass);
+    w.start(std::span<const Vec>(r));
+    const auto judge = [&](std::span<const Vec> start) {
+        talus::ResidualMeasure<dim> measure;
+        measure.template prepare<talus::DelassusProduct<dim>, talus::Signorini<dim>>(
+            w, p.free_velocity, p.laws, start);
+        return measure
+            .template evaluate<talus::Signorini<dim>>(p.free_velocity, p.laws, r,
+                                                      [&](std::size_t i) { return w.velocity(i); })
+            .relative;
+    };
+    BOOST_TEST(judge(r) == 0.0);
+    BOOST_TEST(judge({}) >= 1.0);
+    const std::vector<Vec> small(2, 1e-6 * Vec::Unit(0));
+    BOOST_TEST(judge(small) >= 1.0);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(islands_are_the_same_by_bodies_and_by_blocks, D, dimensions) {
     constexpr int dim = D::value;
     RandomBlocks random(43);

@@ -148,9 +148,11 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(bodies_squeezed_by_obstacles_have_no_solution, D, 
     const auto& report = solver.solve(p, r);
     BOOST_TEST((report.status == talus::SolveStatus::no_solution));
     BOOST_TEST((r[0] == 1e12 * talus::Vector<dim>::Unit(0)));
-    const double residual = talus::residual(p, std::span<const talus::Vector<dim>>(r)).relative;
-    BOOST_TEST(residual > 0.0);
-    BOOST_TEST(std::abs(report.residual - residual) <= 1e-6 * residual);
+    // A solve that begins with them takes them for a jam, whose scale they are; by themselves they
+    // are none.
+    BOOST_TEST(report.residual > 0.0);
+    BOOST_TEST(report.residual < 1e-10);
+    BOOST_TEST(talus::residual(p, std::span<const talus::Vector<dim>>(r)).relative >= 1.0);
     // One obstacle that gives way as fast as the other comes: the ball moves with them.
     r.assign(2, talus::Vector<dim>::Zero());
     p.free_velocity[1] *= -1.0;

@@ -69,6 +69,7 @@ std::size_t add_sliding_box(talus::Simulation<Dim>& sim) {
                                                      {in_plane<Dim>(2.0, 0.0)}));
 }
 
+BOOST_TEST_DECORATOR(*boost::unit_test::label("long"))
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_keeps_its_speed_over_flush_and_lower_tiles, D, dimensions) {
     constexpr int Dim = D::value;
     for (double h : {1e-2, 1e-3})
@@ -251,6 +252,7 @@ void add_random_tiles(talus::Simulation<Dim>& sim, std::mt19937& rng, double len
     }
 }
 
+BOOST_TEST_DECORATOR(*boost::unit_test::label("long"))
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_that_lands_at_a_slant_keeps_its_speed_along_the_tiles, D,
                               dimensions) {
     constexpr int Dim = D::value;
@@ -316,6 +318,46 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_that_lands_on_the_end_of_a_belt_stays_on_it,
             BOOST_CHECK_SMALL(sim.system().bodies.position[box][0] - at, 1e-9);
             BOOST_CHECK_GT(sim.system().bodies.position[box][Dim - 1], 0.01 - 1e-6);
         }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_bounce_returns_its_speed_at_any_step, D, dimensions) {
+    constexpr int Dim = D::value;
+    constexpr double radius = 0.1;
+    for (const double h : {1e-3, 1e-4, 1e-5})
+        for (const double speed : {0.1, 0.01}) {
+            talus::SimulationParams params{.h = h};
+            params.step.scheme = talus::Scheme::gap_anticipating;
+            talus::Simulation<Dim> sim(law<Dim>(0.0, 1.0), params);
+            auto& bodies = sim.system().bodies;
+            sim.system().add_obstacle(talus::HalfSpace<Dim>(up<Dim>()));
+            // It arrives in some twenty steps.
+            const auto ball =
+                sim.system().add(talus::Ball<Dim>(radius), 1000.0,
+                                 {V<Dim>((radius + 20.3 * h * speed) * up<Dim>()), {}},
+                                 {V<Dim>(-speed * up<Dim>()), talus::AngularVector<Dim>::Zero()});
+            BOOST_TEST(sim.run(50 * h).missed == 0);
+            BOOST_TEST(bodies.velocity[ball][Dim - 1] == speed, boost::test_tools::tolerance(1e-9));
+        }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_plate_that_rises_under_a_moving_surface_is_foreseen, D,
+                              dimensions) {
+    constexpr int Dim = D::value;
+    using Motion = talus::PrescribedMotion<Dim>;
+    constexpr double radius = 0.1, speed = 5.0, h = 1e-2;
+    talus::SimulationParams params{.h = h};
+    params.step.scheme = talus::Scheme::gap_anticipating;
+    talus::Simulation<Dim> sim(law<Dim>(0.3), params);
+    sim.system().gravity = -g * up<Dim>();
+    const auto rising =
+        Motion::uniform({V<Dim>(-0.8 * up<Dim>()), {}},
+                        {V<Dim>(speed * up<Dim>()), talus::AngularVector<Dim>::Zero()});
+    sim.system().add_obstacle(talus::Box<Dim>(V<Dim>::Constant(0.5)),
+                              rising.with_surface([](double) { return talus::Twist<Dim>{}; }));
+    sim.system().add(talus::Ball<Dim>(radius), 1000.0, {});
+    const auto run = sim.run(0.2);
+    BOOST_TEST(run.missed == 0);
+    BOOST_TEST(run.overlap.value < 1e-9, to_string(run));
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(steps_over_seams_repeat_to_the_bit, D, dimensions) {

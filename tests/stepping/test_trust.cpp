@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What a simulation must not do in silence: move when it throws, miss a change, believe an
 // inaccurate solver, or depend on settings that a first program would not make.
+#include <talus/measure/energy_ledger.hpp>
 #include <talus/solver/automatic.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/gap_correction.hpp>
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
 #include "common/dimensions.hpp"
@@ -238,6 +240,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(light_balls_under_heavy_ones_carry_them_or_miss, D
         }
 }
 
+BOOST_TEST_DECORATOR(*boost::unit_test::label("long"))
 BOOST_AUTO_TEST_CASE(a_tower_of_fifty_squares_stands_with_all_defaults) {
     auto sim = boxes_on_a_floor<2>(50, 0.005);
     const auto turned = [&] {
@@ -275,6 +278,157 @@ BOOST_AUTO_TEST_CASE(a_run_says_what_it_missed) {
     BOOST_TEST(!run.certified());
     BOOST_TEST(run.residual.value > 1e-4);
     BOOST_TEST(run.overlap.value > 0.0);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_obstacles_crush_is_missed, D, dimensions) {
+    constexpr int Dim = D::value;
+    for (const auto scheme : {talus::Scheme::midpoint, talus::Scheme::gap_anticipating})
+        for (const int balls : {1, 2, 5}) {
+            talus::SimulationParams params{.h = 1e-3};
+            params.step.scheme = scheme;
+            talus::Simulation<Dim> sim(law<Dim>(0.3), params);
+            constexpr double r = 0.05;
+            for (int k = 0; k < balls; ++k)
+                sim.system().add(talus::Ball<Dim>(r), 1000.0,
+                                 {V<Dim>(2.0 * k * r * V<Dim>::Unit(0)), {}});
+            for (const double side : {-1.0, 1.0}) {
+                talus::Twist<Dim> closing;
+                closing.linear = -0.02 * side * V<Dim>::Unit(0);
+                sim.system().add_obstacle(
+                    talus::HalfSpace<Dim>(V<Dim>(-side * V<Dim>::Unit(0)),
+                                          -r - (side > 0.0 ? 2.0 * r * (balls - 1) : 0.0)),
+                    talus::PrescribedMotion<Dim>::uniform({}, closing));
+            }
+            // The first step may find some of the contacts still open.
+            const auto run = sim.run(4e-3);
+            BOOST_TEST(run.missed >= 3, to_string(run));
+            BOOST_TEST(run.residual.value > 0.05);
+        }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_slides_down_a_steep_slope_without_losing_contact, D,
+                              dimensions) {
+    constexpr int Dim = D::value;
+    constexpr double g = 9.81, angle = 0.4, half = 0.1;
+    for (const auto& [h, mu, bound] : {std::tuple{1e-3, 0.42, 1e-3}, std::tuple{1e-2, 0.42, 5e-3},
+                                       std::tuple{1e-2, 0.3, 1e-4}}) {
+        talus::Simulation<Dim> sim(law<Dim>(mu), {.h = h});
+        auto& system = sim.system();
+        system.gravity = g * (std::sin(angle) * V<Dim>::Unit(0) - std::cos(angle) * up<Dim>());
+        system.add_obstacle(talus::HalfSpace<Dim>(up<Dim>()));
+        const auto box = system.add(talus::Box<Dim>(V<Dim>::Constant(half)), 1000.0,
+                                    {V<Dim>(half * up<Dim>()), {}});
+        std::size_t lost = 0;
+        const auto run =
+            sim.run(1.0, [&](const auto& s) { lost += s.data().contact_count() < 2 ? 1U : 0U; });
+        BOOST_TEST(run.certified(), to_string(run));
+        BOOST_TEST(lost <= 1U);
+        const double exact = g * (std::sin(angle) - mu * std::cos(angle));
+        BOOST_TEST(system.bodies.velocity[box][0] == exact, boost::test_tools::tolerance(bound));
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_ball_thrown_into_a_wedge_stays_without_a_missed_step, D,
+                              dimensions) {
+    constexpr int Dim = D::value;
+    constexpr double radius = 0.1, half_angle = 0.3;
+    for (const auto scheme : {talus::Scheme::midpoint, talus::Scheme::gap_anticipating}) {
+        talus::SimulationParams params{.h = 1e-3};
+        params.step.scheme = scheme;
+        talus::Simulation<Dim> sim(law<Dim>(1.0), params);
+        for (const double side : {-1.0, 1.0})
+            sim.system().add_obstacle(
+                talus::HalfSpace<Dim>(V<Dim>(-side * std::cos(half_angle) * V<Dim>::Unit(0) +
+                                             std::sin(half_angle) * up<Dim>()),
+                                      0.0));
+        const double rest = radius / std::sin(half_angle);
+        const auto ball = sim.system().add(talus::Ball<Dim>(radius), 1000.0,
+                                           {V<Dim>((rest + 0.02) * up<Dim>()), {}},
+                                           {V<Dim>(-up<Dim>()), talus::AngularVector<Dim>::Zero()});
+        const auto run = sim.run(0.5);
+        BOOST_TEST(run.missed == 0, to_string(run));
+        BOOST_TEST(sim.system().bodies.velocity[ball].norm() < 1e-3);
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_small_grain_beside_large_ones_falls_until_it_touches, D,
+                              dimensions) {
+    constexpr int Dim = D::value;
+    constexpr double small = 1e-3, large = 10.0, gap = 1e-5, h = 1e-4;
+    for (const auto scheme : {talus::Scheme::midpoint, talus::Scheme::gap_anticipating}) {
+        talus::SimulationParams params{.h = h};
+        params.step.scheme = scheme;
+        talus::Simulation<Dim> sim(law<Dim>(0.3, 0.5), params);
+        auto& system = sim.system();
+        system.gravity = -g * up<Dim>();
+        system.add_obstacle(talus::HalfSpace<Dim>(up<Dim>()));
+        const auto grain =
+            system.add(talus::Ball<Dim>(small), 1000.0, {V<Dim>((small + gap) * up<Dim>()), {}});
+        for (const double k : {1.0, 2.0, 3.0})
+            system.add(talus::Ball<Dim>(large), 1000.0,
+                       {V<Dim>(large * up<Dim>() + 30.0 * k * V<Dim>::Unit(0)), {}});
+        // As long as it takes to fall half of the gap.
+        const double duration = std::sqrt(gap / g);
+        BOOST_TEST(sim.run(duration).certified());
+        const double t = sim.time();
+        BOOST_TEST(system.bodies.velocity[grain][Dim - 1] == -g * t,
+                   boost::test_tools::tolerance(1e-12));
+        const auto resting = system.bodies.position[grain + 1][Dim - 1];
+        BOOST_TEST(std::abs(resting - large) < 1e-4 * large);
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(surfaces_carry_along_and_never_through, D, dimensions) {
+    constexpr int Dim = D::value;
+    constexpr double half = 0.1, mu = 0.3, g = 9.81, T = 0.1;
+    for (const auto scheme : {talus::Scheme::midpoint, talus::Scheme::gap_anticipating})
+        for (const double rise : {0.0, 0.5}) {
+            talus::SimulationParams params{.h = 1e-3};
+            params.step.scheme = scheme;
+            talus::Simulation<Dim> sim(law<Dim>(mu), params);
+            auto& system = sim.system();
+            system.gravity = -g * up<Dim>();
+            // A surface whose velocity also points into the shape, or out of it; the shape rises.
+            for (const double into : {-1.0, 0.0, 1.0}) {
+                talus::Twist<Dim> surface;
+                surface.linear = 2.0 * V<Dim>::Unit(0) + into * up<Dim>();
+                V<Dim> place = half * up<Dim>();
+                place[0] = 10.0 * into;
+                system.add_obstacle(talus::Box<Dim>(V<Dim>::Constant(1.0)),
+                                    talus::PrescribedMotion<Dim>::shifted(
+                                        {V<Dim>(place - (1.0 + half) * up<Dim>()), {}},
+                                        [=](double t) { return V<Dim>(rise * t * up<Dim>()); },
+                                        [=](double) { return V<Dim>(rise * up<Dim>()); })
+                                        .with_surface([surface](double) { return surface; }));
+                system.add(talus::Box<Dim>(V<Dim>::Constant(half)), 1000.0, {place, {}},
+                           {V<Dim>(rise * up<Dim>()), talus::AngularVector<Dim>::Zero()});
+            }
+            talus::EnergyLedger<Dim> books(system.bodies, system.gravity);
+            const auto run =
+                sim.run(T, [&](const auto& s) { books.record(s.data(), s.system().bodies); });
+            BOOST_TEST(run.certified(), to_string(run));
+            BOOST_TEST(books.closure() < 1e-10);
+            BOOST_TEST(books.flows().friction < 0.0);
+            BOOST_TEST(std::abs(books.flows().restitution) < 1e-2 * -books.flows().friction);
+            for (std::size_t i = 0; i < system.bodies.count(); ++i) {
+                if (system.bodies.is_obstacle(i)) continue;
+                BOOST_TEST(std::abs(system.bodies.position[i][Dim - 1] - half - rise * T) < 1e-4);
+                BOOST_TEST(system.bodies.velocity[i][0] == mu * g * T,
+                           boost::test_tools::tolerance(1e-3));
+            }
+        }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_simulation_is_of_one_material_or_of_a_table, D, dimensions) {
+    constexpr int Dim = D::value;
+    const talus::Coulomb<Dim> friction{.mu = 0.3};
+    talus::MaterialTable<talus::DefaultLaw<Dim>> table(2, {friction});
+    table.set(1, 1, {talus::Coulomb<Dim>{.mu = 0.5}});
+    const talus::Simulation<Dim> of_one({friction}), of_two(table, {.h = 1e-2});
+    BOOST_TEST(of_one.system().laws.at(0, 0).law.mu == 0.3);
+    BOOST_TEST(of_two.system().laws.at(0, 1).law.mu == 0.3);
+    BOOST_TEST(of_two.system().laws.at(1, 1).law.mu == 0.5);
+    BOOST_TEST(of_two.params().h == 1e-2);
 }
 
 BOOST_AUTO_TEST_CASE(durations_that_no_run_can_make_are_refused) {

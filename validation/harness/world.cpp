@@ -78,7 +78,8 @@ std::unique_ptr<Engine<Dim>> make_engine(const WorldParams<Dim>& params,
         return std::make_unique<EngineOf<Dim, Solver, talus::NoHooks>>(
             std::move(system), settings, Solver(params.solver), talus::NoHooks{});
     }
-    if (fault == Fault::loose_contact) settings.step.contact_tolerance += 2e-2;
+    if (fault == Fault::loose_contact)
+        settings.step.contact_tolerance = settings.step.contact_tolerance.value_or(0.0) + 2e-2;
     return std::make_unique<EngineOf<Dim, FaultySolver<Dim>, FaultyHooks<Dim>>>(
         std::move(system), settings, FaultySolver<Dim>(params.solver, fault),
         FaultyHooks<Dim>{{}, fault});

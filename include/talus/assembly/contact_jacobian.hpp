@@ -19,6 +19,7 @@ template <int Dim>
 void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodies,
                        ContactJacobian<Dim>& jacobian) {
     jacobian.resize(contacts.count());
+    jacobian.held.clear();
     for (std::size_t c = 0; c < contacts.count(); ++c) {
         const auto [a, b, feature] = contacts.key[c];
         jacobian.a[c] = a;
@@ -36,6 +37,19 @@ void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodie
     }
 }
 
+/// Fills `held` of a Jacobian from what each body's shape moves otherwise than its surface, shape
+/// less surface (world axes). O(contacts).
+template <int Dim>
+void hold_surfaces(std::span<const Twist<Dim>> excess, ContactJacobian<Dim>& jacobian) {
+    jacobian.held.resize(jacobian.contact_count());
+    for (std::size_t c = 0; c < jacobian.contact_count(); ++c) {
+        const Twist<Dim>& a = excess[static_cast<std::size_t>(jacobian.a[c])];
+        const Twist<Dim>& b = excess[static_cast<std::size_t>(jacobian.b[c])];
+        const Vector<Dim> missing = a.at(jacobian.arm_a[c]) - b.at(jacobian.arm_b[c]);
+        jacobian.held[c] = jacobian.frame[c].row(0).dot(missing);
+    }
+}
+
 /// Fills M^-1 for a configuration, in world axes. O(bodies).
 template <int Dim>
 void assemble_inverse_mass(const Bodies<Dim>& bodies, InverseMass<Dim>& inverse_mass) {
@@ -47,13 +61,16 @@ void assemble_inverse_mass(const Bodies<Dim>& bodies, InverseMass<Dim>& inverse_
 }
 
 /// Relative velocity of contact c when the bodies have the given world-axis twists:
-/// U_c = G_c u + W_c [m/s], local axes ([Moreau] equation (4)).
+/// U_c = G_c u + W_c [m/s], local axes ([Moreau] equation (4)). Of a surface that moves on a shape
+/// that does not, only what goes along the surface counts.
 template <int Dim>
 Vector<Dim> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t c,
                               std::span<const Twist<Dim>> twists) {
     const Twist<Dim>& a = twists[static_cast<std::size_t>(jacobian.a[c])];
     const Twist<Dim>& b = twists[static_cast<std::size_t>(jacobian.b[c])];
-    return jacobian.frame[c] * (a.at(jacobian.arm_a[c]) - b.at(jacobian.arm_b[c]));
+    Vector<Dim> u = jacobian.frame[c] * (a.at(jacobian.arm_a[c]) - b.at(jacobian.arm_b[c]));
+    if (!jacobian.held.empty()) u[0] += jacobian.held[c];
+    return u;
 }
 
 }  // namespace talus

@@ -40,11 +40,13 @@ struct PrescribedMotion {
     }
 
     /// Stands still at `at` while its surface moves as part of a rigid body of twist `surface`: an
-    /// endless belt, a turntable.
+    /// endless belt, a turntable. Of that velocity counts, at each contact, what goes along the
+    /// surface: the shape of a belt comes nearer nowhere, not at its ends either.
     static PrescribedMotion belt(const Pose<Dim>& at, const Twist<Dim>& surface) {
         return PrescribedMotion(at).with_surface([surface](double) { return surface; });
     }
-    /// The same places, with a surface of another twist (world axes, of time [s]).
+    /// The same places, with a surface of another twist (world axes, of time [s]), which counts as
+    /// that of a belt does.
     PrescribedMotion with_surface(std::function<Twist<Dim>(double)> surface) const {
         PrescribedMotion result(pose, std::move(surface));
         result.surface_moves = true;

@@ -105,14 +105,22 @@ class EnergyLedger {
                 return Vector<Dim>(j.frame[c] *
                                    (0.5 * (step.begin[i].at(arm) + step.end[i].at(arm))));
             };
-            const Vector<Dim> u_a = local(a, j.arm_a[c]);
-            const Vector<Dim> u_b = local(b, j.arm_b[c]);
+            Vector<Dim> u_a = local(a, j.arm_a[c]);
+            Vector<Dim> u_b = local(b, j.arm_b[c]);
+            // Of a moving surface, what its shape does not do; only obstacles have one.
+            const InverseMass<Dim>& w = step.problem.inverse_mass;
+            const bool a_is_obstacle = w.linear[a] == 0.0;
+            if (!j.held.empty()) {
+                if (a_is_obstacle)
+                    u_a[0] += j.held[c];
+                else
+                    u_b[0] -= j.held[c];
+            }
             const Vector<Dim> u = u_a - u_b;
             const Vector<Dim>& r = step.impulse[c];
             flows_.restitution += r[0] * u[0];
             flows_.friction += tangential(r).dot(tangential(u));
-            const InverseMass<Dim>& w = step.problem.inverse_mass;
-            if (w.linear[a] == 0.0) flows_.walls -= r.dot(u_a);
+            if (a_is_obstacle) flows_.walls -= r.dot(u_a);
             if (w.linear[b] == 0.0) flows_.walls += r.dot(u_b);
         }
     }

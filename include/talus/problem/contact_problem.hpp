@@ -25,6 +25,9 @@ struct ContactJacobian {
     std::vector<BodyIndex> b;               ///< the other one
     std::vector<Matrix<Dim>> frame;         ///< rows (n, t...)
     std::vector<Vector<Dim>> arm_a, arm_b;  ///< from the centres to the contact point [m]
+    /// Where a surface moves otherwise than its shape (PrescribedMotion::belt): the normal velocity
+    /// of a relative to b by the shapes, less that by the surfaces [m/s]. Empty where none does.
+    std::vector<double> held;
 
     std::size_t contact_count() const { return a.size(); }
     /// For n contacts, with some to spare.

@@ -82,6 +82,13 @@ class ContactScales {
         fastest_ = std::max(fastest_, std::sqrt(free));
     }
 
+    /// Square of r_i / rho_i of the impulses that the free velocities were computed beside: those
+    /// that a solve begins with.
+    void see_start(std::size_t i, double square) {
+        Island& island = island_[label_[i]];
+        island.noise = std::max(island.noise, lost * std::sqrt(square));
+    }
+
     /// V of contact i, as far as it does not depend on impulses [m/s].
     double velocity(std::size_t i) const { return free_scale(island_[label_[i]]); }
 
@@ -99,19 +106,19 @@ class ContactScales {
     }
     /// Fills `contact`, `rounding`, `worst_contact` and `velocity`.
     void judge(Residual& result) const {
-        constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
         for (const Island& island : island_) {
             const double error = std::sqrt(island.error);
             result.velocity = std::max(result.velocity, error);
             const double largest = std::sqrt(island.largest);
             const double v = free_scale(island);
-            // Loads that are nothing beside the impulses: a self-stress is its own scale.
-            const double scale = v > nothing * largest ? v : largest;
+            // Loads that are what the self-stress of a jam has left of zero: it is its own scale.
+            const double scale = v > island.noise ? v : std::max(v, largest);
             const double rounded = rounding * (largest + fastest_);
             if (scale > 0.0) result.rounding = std::max(result.rounding, rounded / scale);
             const double counted = error - rounded;
-            if (!(counted > 0.0)) continue;
-            const double zeta = scale > 0.0 ? counted / scale : 1.0;
+            double zeta = 0.0;
+            if (counted > 0.0) zeta = scale > 0.0 ? counted / scale : 1.0;
+            if (1.01 * lost * largest > scale) zeta = std::max(zeta, illegible);
             if (!(zeta > result.contact)) continue;
             result.contact = zeta;
             result.worst_contact = island.worst;
@@ -122,11 +129,18 @@ class ContactScales {
     struct Island {
         double violated = 0.0;  ///< largest velocity of violation without impulses [m/s]
         double fastest = 0.0;   ///< free velocity [m/s]
+        double noise = 0.0;     ///< what free velocities are when they should be zero [m/s]
         double error = 0.0;     ///< square of the largest velocity of violation [m^2/s^2]
         double largest = 0.0;   ///< of the squares of r_c / rho_c [m^2/s^2]
         std::size_t worst = 0;  ///< contact
     };
     static constexpr double nothing = 1e-12, share_of_speed = 1e-3;
+    /// Of the last digits of velocities that large.
+    static constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
+    /// V over the largest r / rho, below which a jam that a solve begins with explains V, and
+    /// impulses that have become so large hide it, for which zeta is no less than `illegible`. One
+    /// number for both, so that a jam is never in between.
+    static constexpr double lost = 4e-12, illegible = 10.0;
     double free_scale(const Island& island) const {
         const double v = std::max(island.violated, share_of_speed * island.fastest);
         return v > nothing * fastest_ ? v : share_of_speed * fastest_;
@@ -163,11 +177,14 @@ class ContactScales {
 /// under gravity V is h g, and never less than a thousandth of the largest u_free of the island, so
 /// that contacts which separate by themselves are not judged by nothing; what happens elsewhere,
 /// however fast, hides nothing. (An island in which nothing moves, to 1e-12 of the largest u_free
-/// anywhere, has no scale of its own: V is a thousandth of that. Where V is less than 1e-12 of the
-/// largest r_c / rho_c, as in a wedge jammed without loads, that is V.) What the rounding of the
-/// largest velocity r_c / rho_c of the island, and of the largest of u_free anywhere, explains is
-/// not counted as an error. A tenth of it is asked for, since the worst of many contacts is some
-/// way above their mean: in piles at rest zeta is some 400 eta.
+/// anywhere, has no scale of its own: V is a thousandth of that. Where V is no more than 4e-12 of
+/// the largest r_c / rho_c that a solve begins with, as in a wedge that stays jammed without loads,
+/// V is the largest r_c / rho_c.) What the rounding of the largest velocity r_c / rho_c of the
+/// island, and of the largest of u_free anywhere, explains is not counted as an error; but where V
+/// is less than 4e-12 of that velocity, too little of V is left in its digits, and zeta is at least
+/// 10: a body between obstacles that close on it would have impulses without end, beside which the
+/// violation is no more than a last digit. A tenth of it is asked for, since the worst of many
+/// contacts is some way above their mean: in piles at rest zeta is some 400 eta.
 ///
 /// What it means for motion. A contact's overlap grows by no more than 10 tolerance V h sqrt(1 +
 /// mu^2) in a step for want of accuracy: at rest, where V = g h, by some 1e-3 g h^2 at a tolerance
@@ -204,9 +221,11 @@ class ResidualMeasure {
     }
     /// Takes also what zeta needs: islands, and the velocities V of their contacts. An operator
     /// that does not say what hangs together is one island.
+    /// `start`, one impulse per contact or none: those that a solve begins with, whose rounding is
+    /// in the free velocities.
     template <DelassusOperator<Rows> W, ContactLaw<Rows> Law>
-    void prepare(const W& w, std::span<const Vector<Rows>> free_velocity,
-                 std::span<const Law> laws) {
+    void prepare(const W& w, std::span<const Vector<Rows>> free_velocity, std::span<const Law> laws,
+                 std::span<const Vector<Rows>> start = {}) {
         prepare(w);
         scales_.find_islands(w);
         for (std::size_t i = 0; i < rho_.size(); ++i) {
@@ -214,6 +233,7 @@ class ResidualMeasure {
                 laws[i].natural_map(free_velocity[i], Vector<Rows>::Zero(), rho_[i]);
             scales_.see_violation(i, f.squaredNorm() / (rho_[i] * rho_[i]),
                                   free_velocity[i].squaredNorm());
+            if (!start.empty()) scales_.see_start(i, start[i].squaredNorm() / (rho_[i] * rho_[i]));
         }
     }
 
@@ -255,11 +275,12 @@ class ResidualMeasure {
                 scales_.see(i, share / rho_[i], r[i].squaredNorm() / (rho_[i] * rho_[i]));
         }
         const double scale = this->scale(free_velocity, r);
-        if (sum == 0.0 && std::isfinite(scale)) return result;
-        const bool no_scale = scale == 0.0;
-        result.whole = no_scale ? 1.0 + 0.0 * sum : std::sqrt(sum) / scale + 0.0 * scale;
-        const double count = static_cast<double>(rho_.size());
-        result.worst_share = no_scale ? 1.0 : std::sqrt(worst * count) / scale;
+        if (sum != 0.0 || !std::isfinite(scale)) {
+            const bool no_scale = scale == 0.0;
+            result.whole = no_scale ? 1.0 + 0.0 * sum : std::sqrt(sum) / scale + 0.0 * scale;
+            const double count = static_cast<double>(rho_.size());
+            result.worst_share = no_scale ? 1.0 : std::sqrt(worst * count) / scale;
+        }
         if (by_contacts) scales_.judge(result);
         result.combine();
         return result;

@@ -101,7 +101,7 @@ class Automatic {
     template <class T>
     void judge_contacts(T& task) {
         measure_.template prepare<std::remove_reference_t<decltype(task.w)>, Law>(
-            task.w, task.free_velocity, task.laws);
+            task.w, task.free_velocity, task.laws, task.r);
         task.w.start(task.r);
         const Residual now =
             measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,

@@ -57,7 +57,7 @@ class ConeTeam<Dim, Law> {
         auto cones = cones_of<Dim>(task.laws);
         if (!cones) return false;
         measure.template prepare<std::remove_reference_t<decltype(task.w)>, Law>(
-            task.w, task.free_velocity, task.laws);
+            task.w, task.free_velocity, task.laws, task.r);
         assign(task, std::move(*cones), measure);
         if (system_.factorization_bytes() > max_bytes) factorizations_left_ = 0;
         return true;

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -30,16 +31,15 @@ namespace talus {
 
 /// Which contacts a step treats as effective, and what their law is told.
 enum class Scheme {
-    midpoint,          ///< [Moreau] section 2.3: those with gap(t_mid, q_mid) <= contact_tolerance
+    midpoint,          ///< [Moreau] section 2.3: those that are closed at (t_mid, q_mid)
     gap_anticipating,  ///< also those that the step could close, with g/h + u_n in place of u_n
 };
 
 /// Choices within a step.
 struct StepParams {
     Scheme scheme = Scheme::midpoint;  ///< the paper's
-    /// Gap below which a contact counts as closed [m]. 0 is the paper's rule; bodies placed
-    /// "exactly" in touch need about 1e-10 of their size, against rounding.
-    double contact_tolerance = 0.0;
+    /// Gap up to which a contact counts as closed [m], see `closed_gap`. The paper's is 0.
+    std::optional<double> contact_tolerance = std::nullopt;
     /// The paper's is explicit_term, with which a free top gains energy at every step.
     Gyroscopic gyroscopic = Gyroscopic::momentum_preserving;
     /// Widening of the boxes of the broad phase, as a fraction of the mean bounding radius of the
@@ -47,10 +47,25 @@ struct StepParams {
     double skin = 0.2;
 };
 
+/// The gap up to which contacts of body i count as closed, as far as it is up to that body [m]; two
+/// bodies have the smaller of theirs. It is the contact tolerance, if there is one. Otherwise it is
+/// 0.01 |gravity| h^2, as far as that is between 1e-5 and 1e-3 of the body's bounding radius: a
+/// tenth of it is what a solver at its tolerance of 1e-4 lets bodies at rest part in a step
+/// (ResidualMeasure). With 0 such a contact would be lost in the next one, and with it friction and
+/// the moments that hold a wall upright. Rounding of "exactly" placed bodies is far below it.
+template <int Dim, class Law, class ShapeType>
+double closed_gap(const System<Dim, Law, ShapeType>& system, std::size_t i, double h,
+                  const StepParams& params) {
+    constexpr double of_fall = 0.01, least = 1e-5, most = 1e-3;
+    const double radius = system.bounding_radius()[i];
+    return params.contact_tolerance.value_or(
+        std::clamp(of_fall * system.gravity.norm() * h * h, least * radius, most * radius));
+}
+
 /// One step of [Moreau] section 2.3, equation (9), stage by stage; owns what the stages share.
 ///
 ///   q_mid  = q_begin + (h/2) u_begin             A, G, W, F, gaps taken at (t_mid, q_mid)
-///   active = { contacts with gap(t_mid, q_mid) <= 0 }
+///   active = { contacts with gap(t_mid, q_mid) <= closed_gap }
 ///   u_free = u_begin + h A^-1 F(t_mid, q_mid, u_begin)
 ///   law( mean of U_begin and U_end , r )  for every active contact,  u_end = u_free + A^-1 G^T r
 ///   q_end  = q_mid + (h/2) u_end
@@ -102,6 +117,7 @@ class MoreauMidpoint {
   private:
     void move_to_midpoint(SystemType& system, Data& data);
     void detect(const SystemType& system, const StepParams& params, Data& data);
+    void hold_moving_surfaces(const SystemType& system, Data& data);
     void evaluate_forces(SystemType& system, const StepParams& params, Data& data);
     void assemble_contacts(const SystemType& system, const StepParams& params, Data& data);
     static void require_shapes(const SystemType& system);
@@ -112,8 +128,9 @@ class MoreauMidpoint {
     ImpulseCache<Dim> cache_, other_cache_;  // the other one: of the step under way, or before it
     KeptState<Dim> before_;
     bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
-    std::vector<double> reach_;
-    std::vector<Twist<Dim>> motion_;  // over one step; empty where nothing is anticipated
+    std::vector<double> closed_, reach_;  // by body
+    std::vector<Twist<Dim>> motion_;      // over one step; empty where nothing is anticipated
+    std::vector<Twist<Dim>> excess_;      // shape less surface, by body
     double last_h_ = 0.0, h_before_ = 0.0, time_before_ = 0.0;
     [[no_unique_address]] Hooks hooks_;
 };
@@ -140,6 +157,7 @@ TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const 
     hooks_.at_midpoint(system, data);
     detect(system, params, data);
     assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
+    hold_moving_surfaces(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
     hooks_.matrices_known(system, data);
     evaluate_forces(system, params, data);
@@ -193,28 +211,55 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
 
 TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& data) {
     const std::size_t n = system.bodies.count();
-    reach_.assign(n, 0.5 * params.contact_tolerance);
+    const bool anticipates = params.scheme == Scheme::gap_anticipating;
+    closed_.resize(n);
+    reach_.resize(n);
+    // What is anticipated needs no more: it is held before it opens.
+    const double touching = params.contact_tolerance.value_or(0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+        closed_[i] = closed_gap(system, i, data.h, params);
+        // Of a pair counts the smaller one, which is that of a free body, or no larger.
+        reach_[i] = anticipates ? 0.5 * touching : system.bodies.is_obstacle(i) ? 0.0 : closed_[i];
+    }
     motion_.clear();
-    if (params.scheme == Scheme::gap_anticipating) {
+    if (anticipates) {
         for (std::size_t i = 0; i < n; ++i) {
             reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
                                                  system.gravity, data.h);
             motion_.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }
-        // The shape of a belt stands still.
-        for (const auto& [body, motion] : system.obstacles)
-            if (motion.surface_moves)
-                motion_[static_cast<std::size_t>(body)] =
-                    motion.displacement(data.t_mid(), data.t_mid() + data.h);
+        // Shapes whose surfaces move otherwise: the shape of a belt stands still.
+        for (const auto& [body, motion] : system.obstacles) {
+            if (!motion.surface_moves) continue;
+            const auto i = static_cast<std::size_t>(body);
+            motion_[i] = motion.displacement(data.t_mid(), data.t_mid() + data.h);
+            const double radius = system.bounding_radius()[i], turn = motion_[i].angular.norm();
+            reach_[i] = motion_[i].linear.norm() +
+                        (turn > 0.0 && std::isfinite(radius) ? turn * radius : 0.0);
+        }
     }
     detection_.detect(system.bodies, system.shapes(), system.shapes_version(),
                       system.bounding_radius(), params.skin * system.mean_bounding_radius(), reach_,
-                      motion_, params.contact_tolerance, data.contacts);
-    if (params.scheme == Scheme::gap_anticipating)
-        data.contacts.keep_if([&](std::size_t c) {
-            return data.contacts.gap[c] <= params.contact_tolerance ||
-                   !bounces<Dim>(system.law_of(data.contacts.key[c]));
-        });
+                      motion_, touching, data.contacts);
+    data.contacts.keep_if([&](std::size_t c) {
+        const ContactKey& key = data.contacts.key[c];
+        return data.contacts.gap[c] <= std::min(closed_[static_cast<std::size_t>(key.a)],
+                                                closed_[static_cast<std::size_t>(key.b)]) ||
+               (anticipates && !bounces<Dim>(system.law_of(key)));
+    });
+}
+
+TALUS_OF_STEP::hold_moving_surfaces(const SystemType& system, Data& data) {
+    excess_.clear();
+    for (const auto& [body, motion] : system.obstacles) {
+        if (!motion.surface_moves) continue;
+        if (excess_.empty()) excess_.assign(system.bodies.count(), Twist<Dim>{});
+        const auto i = static_cast<std::size_t>(body);
+        const Twist<Dim> way = motion.displacement(data.t_begin, data.t_end());
+        excess_[i] = {way.linear / data.h - data.begin[i].linear,
+                      way.angular / data.h - data.begin[i].angular};
+    }
+    if (!excess_.empty()) hold_surfaces<Dim>(excess_, data.problem.jacobian);
 }
 
 TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Data& data) {
@@ -257,7 +302,9 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
                                   data.problem.free_velocity);
     if (params.scheme == Scheme::gap_anticipating)
         for (std::size_t c = 0; c < data.contact_count(); ++c)
-            data.problem.free_velocity[c][0] += anticipated_velocity(data.contacts.gap[c], data.h);
+            if (!bounces<Dim>(data.problem.laws[c]))
+                data.problem.free_velocity[c][0] +=
+                    anticipated_velocity(data.contacts.gap[c], data.h);
 }
 
 TALUS_OF_STEP::finish(SystemType& system, Data& data) {

@@ -30,7 +30,8 @@ struct RunSummary {
     Worst contact_error;      ///< of SolveReport: at the worst contact, in its own scale [-]
     Worst velocity_error;     ///< largest velocity by which a contact violated its law [m/s]
     /// The sum over all steps of h times the worst velocity error [m]: times sqrt(1 + mu^2), no
-    /// overlap has grown by more for want of accuracy.
+    /// overlap has grown by more for want of accuracy. A bound, and far above what comes of it
+    /// where the worst contact is another one in each step: it is told, `overlap` is judged.
     double drift = 0.0;
     /// Deepest overlap as a fraction of the bounding radius of the smaller body [-].
     Worst overlap;

@@ -9,6 +9,7 @@
 #include <talus/stepping/simulation_types.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <utility>
 
@@ -56,6 +57,11 @@ class Simulation {
     explicit Simulation(const Law& law, SimulationParams params = {},
                         Solver solver = default_solver<Dim, Types>())
         : Simulation(SystemType(law), params, std::move(solver)) {}
+    /// Several materials: a MaterialTable. (A template, for which no braces are meant.)
+    template <std::same_as<MaterialTable<Law>> Table>
+    explicit Simulation(const Table& laws, SimulationParams params = {},
+                        Solver solver = default_solver<Dim, Types>())
+        : Simulation(SystemType(laws), params, std::move(solver)) {}
 
     /// Advances by one step; returns what it did. Whatever is thrown on the way (by a law, a force,
     /// a motion, a shape, the solver, for want of memory) leaves the simulation as it was, bit for
@@ -115,7 +121,7 @@ requires SpaceDimension<Dim> Simulation<Dim, Types>::Simulation(SystemType syste
                                                                 Solver solver)
     : system_(std::move(system)), params_(params), solver_(std::move(solver)) {
     require_positive("step size h", params_.h);
-    require_non_negative("contact tolerance", params_.step.contact_tolerance);
+    require_non_negative("contact tolerance", params_.step.contact_tolerance.value_or(0.0));
     require_non_negative("skin", params_.step.skin);
 }
 

@@ -161,7 +161,7 @@ const SolveReport& ConeEngine<Dim, Law, Engine>::run(const W& w,
     require_non_negative("tolerance", engine().params.tolerance);
     std::vector<FrictionCone<Dim>> cones = require_cones(laws);
     report_ = {};
-    measure_.template prepare<W, Law>(w, free_velocity, laws);
+    measure_.template prepare<W, Law>(w, free_velocity, laws, r);
     report_.take(evaluate(w, free_velocity, laws, r));
     const double begin = report_.residual;
     report_.history.push_back({0, begin});

@@ -239,10 +239,9 @@ double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
         if (by_contacts) islands_.see(c, error / mass, rc.squaredNorm() / mass);
     }
     // 0 / 0 is solved; a problem at rest without impulses has no scale to be wrong by.
-    if (sum == 0.0) return 0.0;
     const double scale = std::max(r.norm(), q_.norm());
     Residual result;
-    result.whole = scale == 0.0 ? 1.0 : std::sqrt(sum) / scale;
+    if (sum != 0.0) result.whole = scale == 0.0 ? 1.0 : std::sqrt(sum) / scale;
     if (by_contacts) islands_.judge(result);
     result.combine();
     return result.relative;

@@ -36,7 +36,7 @@ class SweepKernel {
   public:
     template <class W>
     void prepare(const SweepTask<Dim, Law, W>& task) {
-        measure_.template prepare<W, Law>(task.w, task.free_velocity, task.laws);
+        measure_.template prepare<W, Law>(task.w, task.free_velocity, task.laws, task.r);
         prepared_.clear();
         detail::make_room(prepared_, task.r.size());
         for (std::size_t i = 0; i < task.r.size(); ++i)
