@@ -8,9 +8,7 @@
 
 BOOST_AUTO_TEST_SUITE(collision_balls)
 
-namespace {
 const double rounding = 1e-15;  // a few operations on numbers of order one
-}
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(overlapping_balls_touch_half_way, D, dimensions) {
     constexpr int Dim = D::value;

@@ -7,8 +7,6 @@
 
 BOOST_AUTO_TEST_SUITE(collision_convex_pairs)
 
-namespace {
-
 /// Random placements of random shapes of two kinds: most of them touch.
 template <int Dim>
 void try_kinds(int kind_a, int kind_b, double scale) {
@@ -27,8 +25,6 @@ void try_kinds(int kind_a, int kind_b, double scale) {
         }
     }
 }
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_pair_agrees_with_dense_direction_sampling, D, dimensions) {
     for (int a = 0; a < 4; ++a)

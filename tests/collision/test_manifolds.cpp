@@ -11,8 +11,6 @@
 
 BOOST_AUTO_TEST_SUITE(collision_manifolds)
 
-namespace {
-
 const double rounding = 1e-13;  // a few dozen operations on numbers of order one
 const double lateral = 1e-6;    // over NarrowPhaseTolerance::lateral, of bodies of size one
 
@@ -54,8 +52,6 @@ template <int Dim>
 talus::Box<Dim> cube(double half) {
     return talus::Box<Dim>(talus::Vector<Dim>::Constant(half));
 }
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_cube_on_an_equal_cube_touches_by_its_corners, D, dimensions) {
     constexpr int Dim = D::value;

@@ -7,7 +7,7 @@
 #include "common/dimensions.hpp"
 #include "common/random_geometry.hpp"
 
-namespace {
+namespace own_shapes {
 
 /// Ellipse or ellipsoid, as a user would add it: by its support mapping alone.
 template <int Dim>
@@ -60,7 +60,9 @@ struct Ghost {
     Ghost placed(const talus::Pose<Dim>&) const { return *this; }
 };
 
-}  // namespace
+}  // namespace own_shapes
+
+using namespace own_shapes;
 
 namespace talus {
 template <int Dim>
@@ -86,9 +88,7 @@ static_assert(!talus::CanMeet<talus::AnyShape<3>, Ghost<3>, 3>);
 
 BOOST_AUTO_TEST_SUITE(collision_own_shapes)
 
-namespace {
-const double accuracy = 1e-10;  // promised for smooth shapes of size one
-}
+constexpr double accuracy = 1e-10;  // promised for smooth shapes of size one
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(round_ellipsoids_act_like_balls, D, dimensions) {
     constexpr int Dim = D::value;

@@ -12,7 +12,7 @@
 using hull_tester::Source;
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(collision_rounded_faces)
 
 /// Area of the convex hull of points seen from above.
 double spanned(const std::vector<talus::ContactPoint<3>>& contacts) {
@@ -26,10 +26,6 @@ double spanned(const std::vector<talus::ContactPoint<3>>& contacts) {
         return 0.0;  // too few, or on a line
     }
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(collision_rounded_faces)
 
 BOOST_AUTO_TEST_CASE(prisms_of_rounded_corners_touch_over_the_whole_common_face) {
     Source random(81);

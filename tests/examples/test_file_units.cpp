@@ -9,8 +9,6 @@
 
 BOOST_AUTO_TEST_SUITE(examples_file_units)
 
-namespace {
-
 using Problem = talus::AssembledProblem<2, talus::Coulomb<2>>;
 
 /// A mass of 1 kg that falls on a floor at `speed`.
@@ -32,8 +30,6 @@ double residual(double speed, double impulse) {
     return solve_problem::residual_in_file_units<2>(falling_mass(speed),
                                                     {talus::Vector<2>(impulse, 0.0)});
 }
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(a_residual_in_file_units_is_relative_and_0_over_0_is_0) {
     BOOST_TEST(residual(2.0, 2.0) == 0.0);

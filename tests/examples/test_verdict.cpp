@@ -10,8 +10,6 @@
 
 BOOST_AUTO_TEST_SUITE(examples_verdict)
 
-namespace {
-
 /// A grain of 1 N that fell 1 m, was stopped, and lies for ten steps of 0.1 s.
 pile::Figures grain_at_rest() {
     pile::Figures f;
@@ -36,8 +34,6 @@ void check_said(const pile::Figures& f, const std::string& words) {
     BOOST_TEST(said[0].find(words) != std::string::npos, said[0]);
     BOOST_TEST(!pile::certified(f));
 }
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(a_grain_at_rest_is_certified) {
     BOOST_TEST(pile::impossible_in(grain_at_rest()).empty());

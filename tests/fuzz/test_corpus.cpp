@@ -8,7 +8,7 @@
 
 #include "fuzz/reading.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(fuzz_corpus)
 
 /// Bytes from pairs of hexadecimal digits.
 std::string decoded(const std::string& hex) {
@@ -28,10 +28,6 @@ void check_corpus(const std::string& name, Check&& check) {
     }
     BOOST_TEST(line > 20);
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(fuzz_corpus)
 
 BOOST_AUTO_TEST_CASE(scenes) { check_corpus("scene", reading::check_scene); }
 BOOST_AUTO_TEST_CASE(obj_files) { check_corpus("obj", reading::check_obj); }

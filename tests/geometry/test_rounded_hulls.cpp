@@ -13,7 +13,7 @@ using hull_tester::rounded;
 using hull_tester::Source;
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(geometry_rounded_hulls)
 
 /// Each number as printf writes it with `digits` significant digits.
 std::vector<Vector<3>> printed(std::vector<Vector<3>> v, int digits) {
@@ -41,10 +41,6 @@ std::string refusal(const std::vector<Vector<Dim>>& v, const talus::HullOptions&
     }
     return {};
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(geometry_rounded_hulls)
 
 BOOST_AUTO_TEST_CASE(the_rounding_of_coordinates_is_read_off_their_digits) {
     Source random(71);

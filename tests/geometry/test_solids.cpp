@@ -11,8 +11,6 @@
 
 BOOST_AUTO_TEST_SUITE(geometry_solids)
 
-namespace {
-
 const double rounding = 1e-13;  // a few dozen operations on numbers of order one
 
 template <int Dim>
@@ -47,8 +45,6 @@ bool in_hull(const std::vector<talus::Vector<Dim>>& v, const talus::Vector<Dim>&
         }
     return true;
 }
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_ball_is_a_solid, D, dimensions) {
     constexpr int Dim = D::value;
@@ -149,7 +145,6 @@ BOOST_AUTO_TEST_CASE(a_prism_with_many_sided_ends_has_two_faces_with_all_corners
     BOOST_CHECK_SMALL(prism.mass_properties().volume - 2.0 * area, rounding);
 }
 
-namespace {
 template <int Dim>
 std::string refusal(const std::vector<talus::Vector<Dim>>& v) {
     try {
@@ -160,7 +155,6 @@ std::string refusal(const std::vector<talus::Vector<Dim>>& v) {
     return "";
 }
 bool has(const std::string& text, const char* part) { return text.find(part) != text.npos; }
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(bad_polygons_are_refused_by_vertex) {
     using V = std::vector<talus::Vector<2>>;

@@ -16,7 +16,7 @@
 using talus::Mesh;
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(io_mesh_files)
 
 Mesh obj(const std::string& text) {
     std::istringstream stream(text);
@@ -126,10 +126,6 @@ std::string with(std::string text, const std::string& from, const std::string& t
     BOOST_REQUIRE(at != std::string::npos);
     return text.replace(at, from.size(), to);
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(io_mesh_files)
 
 BOOST_AUTO_TEST_CASE(meshes_of_any_digits_give_the_body_that_was_meant) {
     hull_tester::Source random(91);

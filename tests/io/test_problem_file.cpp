@@ -21,7 +21,7 @@ using talus::MatrixStorage;
 using talus::ProblemContent;
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(io_problem_file)
 
 constexpr std::array all_storages{MatrixStorage::triplets, MatrixStorage::compressed_columns,
                                   MatrixStorage::compressed_rows};
@@ -152,10 +152,6 @@ struct Damage {
 };
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(io_problem_file)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_written_is_read_back_in_every_storage, D, dimensions) {
     constexpr int Dim = D::value;

@@ -16,7 +16,7 @@
 
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(io_scene_file)
 
 /// Corners of a grain of either dimension, so that one test body serves both.
 std::vector<Vector<2>> random_corners(talus::Random& random, double r, talus::DimensionTag<2>) {
@@ -62,10 +62,6 @@ void check_refused(const std::string& text, int line, const std::vector<std::str
         BOOST_TEST(found.find(word) != std::string::npos, "'" << word << "' is not in: " << found);
     BOOST_TEST(found.find('\n') == std::string::npos);
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(io_scene_file)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_written_is_read_back, D, dimensions) {
     constexpr int Dim = D::value;

@@ -14,7 +14,7 @@
 
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(io_shared_problems)
 
 /// Contacts of some of the files: of each dimension, form and storage.
 const std::map<std::string, std::size_t> known_contacts{
@@ -91,10 +91,6 @@ void for_each_problem(Visit visit) {
         BOOST_TEST_CONTEXT(entry.path().filename()) { visit(entry.path()); }
     }
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(io_shared_problems)
 
 BOOST_AUTO_TEST_CASE(the_problems_of_other_codes_are_read) {
     std::size_t known = 0, count = 0;

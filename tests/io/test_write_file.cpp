@@ -15,8 +15,6 @@
 
 BOOST_AUTO_TEST_SUITE(io_write_file)
 
-namespace {
-
 int mode_of(const std::filesystem::path& path) {
     struct ::stat status = {};
     BOOST_REQUIRE(::stat(path.c_str(), &status) == 0);
@@ -40,8 +38,6 @@ class SmallFiles {
     rlimit before_ = {};
     void (*handler_)(int);
 };
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(a_file_holds_what_was_written_and_nothing_else_is_left) {
     const TemporaryFolder folder("write");

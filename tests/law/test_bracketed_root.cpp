@@ -3,7 +3,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-namespace {
+BOOST_AUTO_TEST_SUITE(bracketed_root)
 
 /// The root of f in [low, high], and how many evaluations it took.
 template <class Function>
@@ -15,10 +15,6 @@ double root(Function f, double low, double high, int& count) {
     };
     return talus::bracketed_root(counted, {low, f(low)}, {high, f(high)}).best().x;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(bracketed_root)
 
 BOOST_AUTO_TEST_CASE(roots_are_found_to_rounding) {
     const auto close = boost::test_tools::tolerance(1e-15);

@@ -10,7 +10,7 @@
 #include "common/dimensions.hpp"
 #include "common/law_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(cohesive)
 
 /// r_n >= -c and |r_t| <= mu (r_n + c), to the rounding of r_n + c.
 template <int Dim>
@@ -23,10 +23,6 @@ auto in_shifted_cone(double mu) {
 }
 
 constexpr double g = 9.81, m = 2.0;  // [m/s^2], [kg]
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(cohesive)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(cohesive_coulomb_is_a_law, D, dimensions) {
     constexpr int dim = D::value;

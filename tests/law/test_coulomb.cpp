@@ -8,7 +8,7 @@
 #include "common/dimensions.hpp"
 #include "common/law_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(coulomb)
 
 /// Answers are compared to the enumeration's: rounding times condition number (10) times 1 / (1 -
 /// mu |W_tn| / W_nn) (at most 50).
@@ -25,10 +25,6 @@ talus::Matrix<Dim> rod_tip(double th) {
     return w;
 }
 double critical_friction(double th) { return (std::tan(th) + 4.0 / std::tan(th)) / 3.0; }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(coulomb)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(unique_answer_equals_the_enumerated_one, D, dimensions) {
     constexpr int dim = D::value;

@@ -6,12 +6,9 @@
 #include "common/dimensions.hpp"
 #include "common/random_blocks.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(friction_cone)
 constexpr double rounding = 1e-14;  // some ulps of vectors of length of order one
 const std::initializer_list<double> slopes = {0.0, 1e-9, 0.3, 1.0, 7.0, 1e9};
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(friction_cone)
 
 // The projection is the one point with: y in K, x - y in the polar cone, the two orthogonal.
 BOOST_AUTO_TEST_CASE_TEMPLATE(projection_has_its_defining_properties, D, dimensions) {

@@ -7,16 +7,13 @@
 
 #include <cmath>
 
-namespace {
+BOOST_AUTO_TEST_SUITE(material_table)
 using Law = talus::Coulomb<3>;
 auto says(const char* text) {
     return [text](const talus::input_error& e) {
         return std::string(e.what()).find(text) != std::string::npos;
     };
 }
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(material_table)
 
 BOOST_AUTO_TEST_CASE(law_of_a_pair_does_not_depend_on_its_order) {
     talus::MaterialTable<Law> table(3, {.mu = 0.1});

@@ -13,7 +13,7 @@
 
 #include "common/law_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(rolling_friction)
 
 /// Rows of contacts with rolling friction: those of the plane and those of space.
 template <int N>
@@ -65,10 +65,6 @@ std::vector<talus::Vector<3>> enumerated(const talus::RollingCoulomb<3>& law,
         }
     return found;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(rolling_friction)
 
 // y in K, x - y in the polar cone, the two orthogonal.
 BOOST_AUTO_TEST_CASE_TEMPLATE(cone_projection_has_its_defining_properties, R, rolling_rows) {

@@ -10,7 +10,7 @@
 
 #include "common/random_blocks.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(block_lu)
 
 using Edges = std::vector<std::pair<int, int>>;
 
@@ -134,10 +134,6 @@ void check(int nodes, const Edges& edges, RandomBlocks& random) {
         twin.check_solutions(random);
     }
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(block_lu)
 
 BOOST_AUTO_TEST_CASE(solutions_are_those_of_dense_elimination) {
     RandomBlocks random(101);

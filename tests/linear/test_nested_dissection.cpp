@@ -15,7 +15,7 @@
 
 #include "common/random_blocks.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(nested_dissection)
 
 using Edges = std::vector<std::pair<int, int>>;
 using Ordering = talus::FrontalPlan::Ordering;
@@ -155,10 +155,6 @@ double operations(const std::vector<int>& sizes, const Edges& edges, Ordering or
     plan.analyze(sizes, edges, ordering);
     return plan.operations();
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(nested_dissection)
 
 BOOST_AUTO_TEST_CASE(every_node_comes_once) {
     for (const auto& [name, rows] : gallery())

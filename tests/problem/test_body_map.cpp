@@ -8,7 +8,7 @@
 #include "common/dimensions.hpp"
 #include "common/random_problem.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(body_map)
 
 /// B, written out.
 template <int Dim>
@@ -102,10 +102,6 @@ struct MatrixForm {
         contact_map = p * contact_map;
     }
 };
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(body_map)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(square_of_the_map_is_the_delassus_matrix, D, dimensions) {
     constexpr int dim = D::value;

@@ -13,7 +13,7 @@
 #include "common/dimensions.hpp"
 #include "common/random_problem.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(residual)
 
 constexpr double rounding = 1e-12;  // relative, of sums over some ten contacts
 
@@ -34,10 +34,6 @@ talus::ContactProblem<Dim, Law> particle(const talus::Vector<Dim>& free_velocity
     p.free_velocity[0] = free_velocity;
     return p;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(residual)
 
 // W = 1, so rho = 1: every number can be written down.
 BOOST_AUTO_TEST_CASE_TEMPLATE(residual_of_a_particle_is_the_hand_computed_one, D, dimensions) {

@@ -15,8 +15,6 @@
 
 BOOST_AUTO_TEST_SUITE(reports_geometry)
 
-namespace {
-
 using V2 = talus::Vector<2>;
 using V3 = talus::Vector<3>;
 using Pose2 = talus::Pose<2>;
@@ -86,8 +84,6 @@ talus::ConvexPolytope<3> prism(int sides, double radius, double height) {
         }
     return talus::ConvexPolytope<3>(points);
 }
-
-}  // namespace
 
 // MattiaMontanari/openGJK#3
 BOOST_AUTO_TEST_CASE(a_quadrilateral_and_a_triangle_that_overlap) {

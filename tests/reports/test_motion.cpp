@@ -18,8 +18,6 @@ BOOST_AUTO_TEST_SUITE(reports_motion)
 
 using namespace experiment;
 
-namespace {
-
 using V3 = talus::Vector<3>;
 using talus::Box;
 
@@ -38,8 +36,6 @@ auto row(const std::vector<double>& x, const std::vector<double>& v, double r, d
                          {v[i] * V<Dim>::Unit(0), {}});
     return sim;
 }
-
-}  // namespace
 
 // dimforge/rapier#97, erincatto/box2d#167, erincatto/box2d#76, jrouwe/JoltPhysics#1286,
 // bulletphysics/bullet3#1530, liabru/matter-js#13, piqnt/planck.js#223

@@ -18,8 +18,6 @@
 
 BOOST_AUTO_TEST_SUITE(reports_shapes)
 
-namespace {
-
 using V2 = talus::Vector<2>;
 using V3 = talus::Vector<3>;
 using talus::ConvexPolytope;
@@ -91,8 +89,6 @@ std::vector<V3> unit_cube(const V3& corner, int more_on_one_face = 0) {
         points.push_back(corner + V3(0.25, 1.0, k / (more_on_one_face + 1.0)));
     return points;
 }
-
-}  // namespace
 
 // erincatto/box2d#296
 BOOST_AUTO_TEST_CASE(a_pentagon_with_a_corner_nearly_on_a_side) {

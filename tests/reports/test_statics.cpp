@@ -18,8 +18,6 @@ BOOST_AUTO_TEST_SUITE(reports_statics)
 
 using namespace experiment;
 
-namespace {
-
 using V3 = talus::Vector<3>;
 using talus::BodyIndex;
 using talus::Box;
@@ -48,8 +46,6 @@ double creep(Sim& sim, BodyIndex body, double duration) {
     BOOST_TEST(steady);
     return (sim.system().bodies.position[i] - begin).norm();
 }
-
-}  // namespace
 
 // google-deepmind/mujoco#3328
 BOOST_AUTO_TEST_CASE(a_pinched_capsule_does_not_creep_through_the_grip) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+BOOST_AUTO_TEST_SUITE(sample_granulometry)
 
 /// Checks of any law of radii: range, mean, and that the largest and smallest are approached.
 template <talus::RadiusLaw Law>
@@ -30,10 +30,6 @@ void check_radius_law(const Law& law) {
     BOOST_TEST(smallest <= low + 0.01 * (high - low));
     BOOST_TEST(largest >= high - 0.01 * (high - low));
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(sample_granulometry)
 
 BOOST_AUTO_TEST_CASE(every_law_keeps_its_range_and_mean) {
     check_radius_law(talus::UniformRadii(0.004, 0.006));

@@ -11,7 +11,7 @@
 using talus::Grain;
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(sample_overlap)
 
 /// A cube of side 2 about `position`: a square in the plane.
 template <int Dim>
@@ -38,10 +38,6 @@ bool apart_by_sides(const Grain<2>& a, const Grain<2>& b, double tolerance) {
     }
     return false;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(sample_overlap)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(cubes_overlap_when_nearer_than_their_side, D, dimensions) {
     constexpr int Dim = D::value;

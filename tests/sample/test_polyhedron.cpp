@@ -8,7 +8,7 @@
 
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(sample_polyhedron)
 
 constexpr double rounding = 1e-14;  // lengths are of order one
 
@@ -21,10 +21,6 @@ std::vector<Vector<3>> cube() {
 std::vector<talus::VertexLoop> faces_of(const std::vector<Vector<3>>& points) {
     return talus::convex_hull_of_cloud(std::span<const Vector<3>>(points)).faces;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(sample_polyhedron)
 
 BOOST_AUTO_TEST_CASE(a_cube_has_six_faces_of_four_corners) {
     const auto points = cube();

@@ -6,14 +6,10 @@
 
 using talus::Vector;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(sample_random_shapes)
 
 constexpr double radius = 0.005;
 constexpr double rounding = 1e-13 * radius;  // of a few tens of operations on lengths of this size
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(sample_random_shapes)
 
 BOOST_AUTO_TEST_CASE(polygons_are_convex_and_centred_and_reach_their_radius) {
     talus::Random random(21);

@@ -14,7 +14,7 @@
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(automatic)
 
 template <int Dim>
 using Law = talus::Coulomb<Dim>;
@@ -68,10 +68,6 @@ talus::ContactProblem<2, Law<2>> lattice_heap(int base) {
     }
     return p;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(automatic)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(it_is_a_contact_solver, D, dimensions) {
     test_solver<D::value>([]<class L>(double tolerance, int max_sweeps) {

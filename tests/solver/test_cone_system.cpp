@@ -9,7 +9,7 @@
 #include "common/dimensions.hpp"
 #include "common/random_problem.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(cone_system)
 
 /// A random problem in both forms that ConeSystem takes, and written out.
 template <int Dim>
@@ -71,10 +71,6 @@ void over_problems(unsigned seed, Visit&& visit) {
         visit(forms, random);
     }
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(cone_system)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(products_are_those_of_the_dense_matrix, D, dimensions) {
     over_problems<D::value>(111, [](auto& forms, RandomBlocks& random) {

@@ -15,7 +15,7 @@
 #include "common/gallery_tester.hpp"
 #include "common/solver_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(enumeration)
 
 template <int Dim>
 using Law = talus::Coulomb<Dim>;
@@ -70,10 +70,6 @@ int count(const Oracle<Dim>& oracle, Status status) {
     for (const auto& s : oracle.solutions()) n += s.status[0] == status;
     return n;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(enumeration)
 
 BOOST_AUTO_TEST_CASE(is_robust_on_tiny_problems_of_the_gallery_in_the_plane) {
     auto promises = SolverPromises::robust();

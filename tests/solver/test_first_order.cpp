@@ -8,7 +8,7 @@
 #include "common/gallery_tester.hpp"
 #include "common/random_problem.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(first_order)
 
 constexpr int most = 2000;
 
@@ -35,10 +35,6 @@ void test_projected_gradient(talus::GradientStep step, SolverPromises promises) 
         },
         promises);
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(first_order)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(spectral_gradient, D, dimensions) {
     test_projected_gradient<D::value>(talus::GradientStep::spectral, {.well_posed = 1e-7});

@@ -8,7 +8,7 @@
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(gallery_of_factors)
 
 template <int Dim>
 using Law = talus::Coulomb<Dim>;
@@ -35,10 +35,6 @@ auto automatic() {
         return talus::Automatic<Dim, Law<Dim>>({.tolerance = tolerance, .max_sweeps = most_sweeps});
     };
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(gallery_of_factors)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(interior_point_is_true, D, dimensions) {
     // A contact on its cone's border that does not slide is right to the root of complementarity.

@@ -7,7 +7,7 @@
 #include "common/dimensions.hpp"
 #include "common/gallery_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(gallery_of_sweeps)
 
 constexpr int most = 20000;        // sweeps
 constexpr int most_passes = 4000;  // accelerated ones
@@ -34,10 +34,6 @@ void in_all_forms_agree(Make make) {
          of_matrices<Dim>(make, by_sweeps, most)},
         1e-12, 1e-9);
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(gallery_of_sweeps)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(gauss_seidel, D, dimensions) {
     for (const auto order : {talus::SweepOrder::forward, talus::SweepOrder::symmetric})

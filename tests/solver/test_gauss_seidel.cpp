@@ -9,7 +9,7 @@
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(gauss_seidel)
 
 /// A user's law in its shortest form: the two functions of the concept.
 template <int Dim>
@@ -38,10 +38,6 @@ talus::ContactProblem<Dim, Law> well_posed(RandomBlocks& random, const Law& law,
 
 /// Velocities of solves to 1e-13 agree to this, with condition numbers up to some hundred.
 constexpr double same_velocity = 1e-9;
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(gauss_seidel)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(gauss_seidel_is_a_contact_solver, D, dimensions) {
     for (const auto order : {talus::SweepOrder::forward, talus::SweepOrder::backward,

@@ -14,7 +14,7 @@
 #include "common/gallery_tester.hpp"
 #include "common/random_problem.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(inexact_interior_point)
 
 template <int Dim>
 using Law = talus::Coulomb<Dim>;
@@ -76,10 +76,6 @@ Problem<Dim> tower(std::size_t height) {
         p.free_velocity[c] = (c == 0 ? -1.0 : 0.0) * talus::Vector<Dim>::Unit(0);
     return p;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(inexact_interior_point)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(incomplete_factors_of_a_chain_are_complete, D, dimensions) {
     // A block tridiagonal matrix fills nothing in: its ILU(0) is its LU.

@@ -6,7 +6,7 @@
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(interior_point)
 
 template <int Dim>
 using Law = talus::Coulomb<Dim>;
@@ -28,10 +28,6 @@ void check_report(const talus::ContactProblem<Dim, Law<Dim>>& p,
     BOOST_TEST(std::abs(eta - report.residual) <= 1e-12 + 1e-6 * eta);
     BOOST_TEST((report.status == talus::SolveStatus::converged) == (report.residual <= tolerance));
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(interior_point)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(well_posed_problems_are_solved_in_few_iterations, D, dimensions) {
     constexpr int dim = D::value;

@@ -6,7 +6,7 @@
 #include "common/gallery_tester.hpp"
 #include "common/solver_tester.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(proximal_newton)
 
 template <int Dim>
 using Law = talus::Coulomb<Dim>;
@@ -35,10 +35,6 @@ talus::ContactProblem<Dim, Law<Dim>> hyperstatic(RandomBlocks& random, double mu
     move_bodies_only<Dim>(p, random);
     return p;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(proximal_newton)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(does_what_solvers_do, D, dimensions) {
     test_solver<D::value>([]<class L>(double tolerance, int max_iterations) {

@@ -11,7 +11,7 @@
 
 #include "common/random_blocks.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(rolling_problems)
 
 constexpr double g = 9.81, m = 2.0, R = 0.1;  // [m/s^2], [kg], [m]
 
@@ -83,10 +83,6 @@ constexpr int steps = 100;
 constexpr double duration = h * steps;
 /// Velocities of order 1 m/s and spins of order 10 rad/s after a hundred steps, each to rounding.
 constexpr double rounding = 1e-13;
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(rolling_problems)
 
 // Rests iff tan(slope) <= mu_r / R; else rolls with
 //   a = (g sin - g cos mu_r / R) / (1 + I / (m R^2)).

@@ -13,7 +13,7 @@
 #include "common/random_problem.hpp"
 #include "registry.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(solver_registry)
 
 template <int Dim>
 using Law = talus::Coulomb<Dim>;
@@ -59,10 +59,6 @@ void solves_in_all_forms(talus::AnySolver<Dim, L> solver, const talus::ContactPr
     auto matrices = with_masses<Dim>(p.jacobian, p.inverse_mass);
     check([&](R r) -> const auto& { return solver.solve(matrices, p.free_velocity, p.laws, r); });
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(solver_registry)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_name_solves_a_small_problem, D, dimensions) {
     constexpr int dim = D::value;

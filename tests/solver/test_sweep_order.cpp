@@ -5,16 +5,13 @@
 
 #include <algorithm>
 
-namespace {
+BOOST_AUTO_TEST_SUITE(sweep_order)
 using Visits = std::vector<std::size_t>;
 Visits next(talus::SweepSequence& sequence) {
     Visits v;
     sequence.next([&](std::size_t i) { v.push_back(i); });
     return v;
 }
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(sweep_order)
 
 BOOST_AUTO_TEST_CASE(fixed_orders_are_as_named) {
     const Visits up{0, 1, 2, 3}, down{3, 2, 1, 0};

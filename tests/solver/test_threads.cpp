@@ -17,7 +17,7 @@
 #include "common/dimensions.hpp"
 #include "common/random_problem.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(solver_threads)
 
 template <int Dim>
 using Problem = talus::ContactProblem<Dim, talus::Coulomb<Dim>>;
@@ -67,10 +67,6 @@ void test_thread_counts(const Solver& solver) {
     }
     for (const auto& r : at_once) BOOST_TEST(same_bits<Dim>(alone, r));
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(solver_threads)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(interior_point_has_the_same_bits, D, dimensions) {
     using Law = talus::Coulomb<D::value>;

@@ -10,7 +10,7 @@
 #include "common/dimensions.hpp"
 #include "experiment.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(stepping_step_queries)
 
 using namespace experiment;
 
@@ -29,10 +29,6 @@ talus::Simulation<Dim> pair_on_a_floor(double angle = 0.0) {
     system.add(talus::Ball<Dim>(0.25), 1000.0, {9.0 * normal, {}});
     return sim;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(stepping_step_queries)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(impulses_are_those_that_carry_the_weights, D, dimensions) {
     constexpr int Dim = D::value;

@@ -20,7 +20,7 @@
 
 using namespace experiment;
 
-namespace {
+BOOST_AUTO_TEST_SUITE(stepping_trust)
 
 struct Refusal : std::runtime_error {
     Refusal() : std::runtime_error("refused") {}
@@ -69,10 +69,6 @@ talus::Simulation<Dim> boxes_on_a_floor(int count, double half = 0.5) {
                          {(2 * k + 1) * half * up<Dim>(), {}});
     return sim;
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(stepping_trust)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_step_that_throws_leaves_everything_as_it_was, D, dimensions) {
     constexpr int Dim = D::value;

@@ -4,7 +4,7 @@
 #include "one_step_equilibrium/statics.hpp"
 
 namespace validation {
-namespace {
+namespace D12 {
 
 /// Thrust over specific weight R t that a hinge at angle b from the crown asks for.
 double thrust_at(double b, double t) {
@@ -92,5 +92,5 @@ const Register d12(
      .catches = {Fault::pulling_contact, Fault::reaction_lost}},
     run, nullptr, __FILE__);
 
-}  // namespace
+}  // namespace D12
 }  // namespace validation

@@ -3,7 +3,7 @@
 #include "one_step_equilibrium/statics.hpp"
 
 namespace validation {
-namespace {
+namespace D13 {
 
 double least_friction(int n, double t) {
     return least(0.1, 1.0, [&](double mu) { return ArchStatics(n, t, mu).stands(); });
@@ -55,5 +55,5 @@ const Register d13(
      .catches = {Fault::friction_off, Fault::pulling_contact}},
     run, nullptr, __FILE__);
 
-}  // namespace
+}  // namespace D13
 }  // namespace validation

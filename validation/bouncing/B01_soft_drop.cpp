@@ -2,7 +2,7 @@
 #include "bouncing/bouncing.hpp"
 
 namespace validation {
-namespace {
+namespace B01 {
 
 constexpr Fall fall{1.0};
 constexpr double duration = 1.0;
@@ -119,5 +119,5 @@ const Register b01(
                  Fault::restitution_weight}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B01
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "bouncing/bouncing.hpp"
 
 namespace validation {
-namespace {
+namespace B02 {
 
 constexpr double h = 1e-3;
 
@@ -73,5 +73,5 @@ const Register b02(
      .catches = {Fault::restitution_weight, Fault::reaction_lost, Fault::tilted_normal}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B02
 }  // namespace validation

@@ -4,7 +4,7 @@
 #include "bouncing/bouncing.hpp"
 
 namespace validation {
-namespace {
+namespace B03 {
 
 constexpr Fall fall{1.0};
 constexpr int watched = 3;  // the bounce whose time and peak are followed
@@ -143,5 +143,5 @@ const Register b03(
      .catches = {Fault::loose_contact, Fault::restitution_weight}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B03
 }  // namespace validation

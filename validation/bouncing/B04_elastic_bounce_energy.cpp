@@ -4,7 +4,7 @@
 #include "bouncing/bouncing.hpp"
 
 namespace validation {
-namespace {
+namespace B04 {
 
 constexpr Fall fall{1.0};
 constexpr double duration = 50.0;
@@ -87,5 +87,5 @@ const Register b04(
                  Fault::begin_point}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B04
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "bouncing/bouncing.hpp"
 
 namespace validation {
-namespace {
+namespace B09 {
 
 constexpr Impact in{.mass = 1.3, .radius = 0.2, .along = 3.0, .upward = -2.0, .spin = 0.0};
 constexpr double e_n = 0.8;
@@ -74,5 +74,5 @@ const Register b09(
                  Fault::short_arm}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B09
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "bouncing/bouncing.hpp"
 
 namespace validation {
-namespace {
+namespace B10 {
 
 constexpr Impact in{.mass = 1.3, .radius = 0.2, .along = 3.0, .upward = -2.0, .spin = -20.0};
 constexpr double mu = 5.0;
@@ -58,5 +58,5 @@ const Register b10(
      .catches = {Fault::friction_on_end_velocity, Fault::restitution_weight, Fault::short_arm}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B10
 }  // namespace validation

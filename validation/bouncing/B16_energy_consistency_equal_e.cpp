@@ -4,7 +4,7 @@
 #include "bouncing/rod_impact.hpp"
 
 namespace validation {
-namespace {
+namespace B16 {
 
 constexpr int sample_count = 40000;
 
@@ -96,5 +96,5 @@ const Register b16(
      .catches = {Fault::friction_on_end_velocity, Fault::restitution_weight, Fault::short_arm}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B16
 }  // namespace validation

@@ -4,7 +4,7 @@
 #include "bouncing/rod_impact.hpp"
 
 namespace validation {
-namespace {
+namespace B17 {
 
 constexpr double mu = 1.0, angle = 45 * degree;
 constexpr double approach = -1.0, slip = 0.6;  // of the end, before [m/s]
@@ -131,5 +131,5 @@ const Register b17(
      .catches = {Fault::restitution_weight, Fault::friction_on_end_velocity, Fault::short_arm}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B17
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "cohesion/cohesive_block.hpp"
 
 namespace validation {
-namespace {
+namespace K01 {
 
 /// The half-space is a ceiling: gravity points away from it.
 template <int Dim>
@@ -60,5 +60,5 @@ const Register k01(
      .catches = {Fault::loose_contact, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace K01
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "cohesion/cohesive_block.hpp"
 
 namespace validation {
-namespace {
+namespace K02 {
 
 constexpr double mu = 0.3;
 
@@ -53,5 +53,5 @@ const Register k02(
      .catches = {Fault::friction_off, Fault::tilted_normal}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace K02
 }  // namespace validation

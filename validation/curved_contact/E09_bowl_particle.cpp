@@ -2,7 +2,7 @@
 #include "curved_contact/curves.hpp"
 
 namespace validation {
-namespace {
+namespace E09 {
 
 constexpr double release = 60 * degree;
 const double w = std::sqrt(g);
@@ -29,7 +29,7 @@ double over_period(const std::function<double(double)>& f) {
 }
 
 template <int Dim>
-double energy(const World<Dim>& world) {
+double particle_energy(const World<Dim>& world) {
     return talus::kinetic_energy(world.bodies(), 1) + g * world.bodies().position[1][Dim - 1];
 }
 
@@ -46,7 +46,7 @@ void run(Trial<Dim>& trial) {
 
     const double h = T / 4000;
     auto world = particle_in_bowl(trial, h, release, 0.0);
-    const double before = energy(world);
+    const double before = particle_energy(world);
     Series seen{"T/4000", {}, {}}, exact{"exact", {}, {}, true};
     Series gap{"gap / h", {}, {}};
     world.run(T, [&](const auto& now) {
@@ -57,8 +57,8 @@ void run(Trial<Dim>& trial) {
     });
     trial.within("gap after a period, by h", gap.y.back() / drift, 1.0, 0.02, "2 %, leading order",
                  h, Class::D1);
-    trial.within("loss of energy in a period, by h", (energy(world) - before) / h / loss, 1.0, 0.02,
-                 "2 %, leading order", h, Class::D1);
+    trial.within("loss of energy in a period, by h", (particle_energy(world) - before) / h / loss,
+                 1.0, 0.02, "2 %, leading order", h, Class::D1);
     trial.curves({"angle", "t [s]", "θ [deg]", {seen, exact}});
     trial.curves({"gap, by h",
                   "t [s]",
@@ -94,5 +94,5 @@ const Register e09(
      .catches = {Fault::end_point_drift, Fault::begin_point}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E09
 }  // namespace validation

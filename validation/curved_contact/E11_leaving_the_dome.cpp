@@ -4,7 +4,7 @@
 #include "curved_contact/curves.hpp"
 
 namespace validation {
-namespace {
+namespace E11 {
 
 constexpr double start = 10 * degree;
 
@@ -208,5 +208,5 @@ const Register e11(
      .catches = {Fault::begin_point, Fault::friction_off}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E11
 }  // namespace validation

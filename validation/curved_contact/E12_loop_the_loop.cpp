@@ -2,7 +2,7 @@
 #include "curved_contact/curves.hpp"
 
 namespace validation {
-namespace {
+namespace E12 {
 
 struct Ride {
     bool completes = false;   ///< passed the bottom again, pressed to the circle at every step
@@ -116,5 +116,5 @@ const Register e12(
      .catches = {Fault::pulling_contact, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E12
 }  // namespace validation

@@ -7,7 +7,7 @@
 #include "deposit.hpp"
 
 namespace validation {
-namespace {
+namespace G23 {
 
 /// What is looked at when a deposit has come to rest.
 struct Averages {
@@ -127,5 +127,5 @@ const Register g23(
      .catches = {Fault::loose_contact, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace G23
 }  // namespace validation

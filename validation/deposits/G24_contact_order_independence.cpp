@@ -2,7 +2,7 @@
 #include "deposit.hpp"
 
 namespace validation {
-namespace {
+namespace G24 {
 
 /// All orders in which the contacts are visited.
 struct Order {
@@ -108,5 +108,5 @@ const Register g24(
      .catches = {Fault::residual_ignored}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace G24
 }  // namespace validation

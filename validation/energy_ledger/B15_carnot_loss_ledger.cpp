@@ -4,7 +4,7 @@
 #include "walled_box.hpp"
 
 namespace validation {
-namespace {
+namespace B15 {
 
 constexpr double h = 2e-3, mu = 0.3, amplitude = 0.03, rate = 2 * pi * 3;
 
@@ -113,5 +113,5 @@ const Register b15(
      .catches = {Fault::end_point_drift, Fault::reaction_lost, Fault::obstacle_velocity_forgotten}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B15
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "walled_box.hpp"
 
 namespace validation {
-namespace {
+namespace B20 {
 
 constexpr double h = 5e-4, speed = 1.0, tolerance = 1e-13;
 
@@ -150,5 +150,5 @@ const Register b20(
                  Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B20
 }  // namespace validation

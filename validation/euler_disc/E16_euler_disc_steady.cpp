@@ -4,7 +4,7 @@
 #include "harness/case.hpp"
 
 namespace validation {
-namespace {
+namespace E16 {
 
 constexpr double radius = 0.1, tilted = 20 * degree, mass = 0.3, mu = 0.5;
 constexpr int turns = 5;
@@ -132,5 +132,5 @@ const Register e16(
      .catches = {Fault::begin_point, Fault::short_arm}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace E16
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "falling_rod/rod.hpp"
 
 namespace validation {
-namespace {
+namespace A17 {
 
 constexpr double start = 0.02, slipped = 5e-3;
 
@@ -166,5 +166,5 @@ const Register a17(
      .catches = {Fault::friction_off, Fault::short_arm, Fault::begin_point}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A17
 }  // namespace validation

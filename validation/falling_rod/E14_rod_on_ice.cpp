@@ -2,7 +2,7 @@
 #include "falling_rod/rod.hpp"
 
 namespace validation {
-namespace {
+namespace E14 {
 
 constexpr double start = 10 * degree;
 
@@ -157,5 +157,5 @@ const Register e14(
      .catches = {Fault::tilted_normal, Fault::short_arm, Fault::begin_point}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E14
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "harness/case.hpp"
 
 namespace validation {
-namespace {
+namespace E01 {
 
 constexpr double h = 0.37;
 constexpr int steps = 100;
@@ -56,5 +56,5 @@ const Register e01(
      .catches = {Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E01
 }  // namespace validation

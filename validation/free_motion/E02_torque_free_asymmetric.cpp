@@ -2,7 +2,7 @@
 #include "free_motion/tops.hpp"
 
 namespace validation {
-namespace {
+namespace E02 {
 
 const V<3> moments(1, 2, 3);
 constexpr double duration = 10.0;
@@ -129,5 +129,5 @@ const Register e02(
      .catches = {Fault::gyroscopic_dropped}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace E02
 }  // namespace validation

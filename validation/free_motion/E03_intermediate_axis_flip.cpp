@@ -2,7 +2,7 @@
 #include "free_motion/tops.hpp"
 
 namespace validation {
-namespace {
+namespace E03 {
 
 const V<3> moments(1, 2, 3), start(0.01, 1, 0);
 
@@ -79,5 +79,5 @@ const Register e03(
      .catches = {Fault::gyroscopic_dropped}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace E03
 }  // namespace validation

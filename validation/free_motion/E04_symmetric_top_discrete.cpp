@@ -2,7 +2,7 @@
 #include "free_motion/tops.hpp"
 
 namespace validation {
-namespace {
+namespace E04 {
 
 const V<3> moments(1, 1, 2), start(0.3, 0, 1.5);
 constexpr double h = 0.01;
@@ -87,5 +87,5 @@ const Register e04(
      .catches = {Fault::gyroscopic_dropped}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace E04
 }  // namespace validation

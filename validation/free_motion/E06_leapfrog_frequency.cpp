@@ -3,7 +3,7 @@
 #include "harness/observed.hpp"
 
 namespace validation {
-namespace {
+namespace E06 {
 
 constexpr double w = 3.0;
 
@@ -90,5 +90,5 @@ const Register e06(
      .catches = {Fault::force_at_begin, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E06
 }  // namespace validation

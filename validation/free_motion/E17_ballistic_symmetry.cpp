@@ -3,7 +3,7 @@
 #include "harness/observed.hpp"
 
 namespace validation {
-namespace {
+namespace E17 {
 
 /// Runs n steps, turns all velocities round, runs n steps again; how far the start is missed.
 template <int Dim>
@@ -99,5 +99,5 @@ const Register e17(
      .catches = {Fault::force_at_begin, Fault::end_point_drift, Fault::restitution_weight}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E17
 }  // namespace validation

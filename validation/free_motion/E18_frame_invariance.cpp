@@ -2,7 +2,7 @@
 #include "harness/case.hpp"
 
 namespace validation {
-namespace {
+namespace E18 {
 
 /// A frame of reference: what happens is turned, shifted and carried along with a velocity.
 template <int Dim>
@@ -154,5 +154,5 @@ const Register e18(
                  Fault::stale_inertia}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E18
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "measured.hpp"
 
 namespace validation {
-namespace {
+namespace G01 {
 
 template <int Dim>
 void run(Trial<Dim>& trial) {
@@ -61,5 +61,5 @@ const Register g01(
      .catches = {Fault::forces_in_local_axes, Fault::short_arm, Fault::tilted_normal}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace G01
 }  // namespace validation

@@ -7,7 +7,7 @@
 #include "measured.hpp"
 
 namespace validation {
-namespace {
+namespace G02 {
 
 constexpr double r = 0.5;
 
@@ -179,5 +179,5 @@ const Register g02(
      .catches = {Fault::forces_in_local_axes}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace G02
 }  // namespace validation

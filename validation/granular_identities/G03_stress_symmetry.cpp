@@ -2,7 +2,7 @@
 #include "box_of_balls.hpp"
 
 namespace validation {
-namespace {
+namespace G03 {
 
 template <int Dim>
 void run(Trial<Dim>& trial) {
@@ -75,5 +75,5 @@ const Register g03(
      .catches = {Fault::forces_in_local_axes}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace G03
 }  // namespace validation

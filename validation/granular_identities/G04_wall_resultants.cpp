@@ -4,7 +4,7 @@
 #include "box_of_balls.hpp"
 
 namespace validation {
-namespace {
+namespace G04 {
 
 /// Force and moment about the origin that floor and walls give to the balls at these places.
 template <int Dim>
@@ -86,5 +86,5 @@ const Register g04(
      .catches = {Fault::forces_in_local_axes, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace G04
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "box_of_balls.hpp"
 
 namespace validation {
-namespace {
+namespace G05 {
 
 constexpr double lid_force = 100.0, lid_mass = 2.0;  // [N], [kg]: gently
 
@@ -84,5 +84,5 @@ const Register g05(
      .catches = {Fault::forces_in_local_axes}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace G05
 }  // namespace validation

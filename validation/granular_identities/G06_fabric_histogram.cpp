@@ -6,7 +6,7 @@
 #include "measured.hpp"
 
 namespace validation {
-namespace {
+namespace G06 {
 
 constexpr double a2 = 0.2, a4 = 0.1, angle2 = 0.3, angle4 = 0.7;
 constexpr std::size_t sectors = 24;
@@ -148,5 +148,5 @@ const Register g06(
      .catches = {Fault::mean_over_sectors_forgotten}},
     run, nullptr, __FILE__);
 
-}  // namespace
+}  // namespace G06
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "jamming.hpp"
 
 namespace validation {
-namespace {
+namespace C07 {
 
 constexpr double m = 1.0, h = 1e-2, half_width = 0.2, half_height = 0.2, half_depth = 0.2;
 constexpr double pin = 0.1;  // radius of the two obstacles
@@ -173,5 +173,5 @@ const Register c07(
      .catches = {Fault::friction_off}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace C07
 }  // namespace validation

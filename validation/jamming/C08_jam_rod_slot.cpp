@@ -2,7 +2,7 @@
 #include "jamming.hpp"
 
 namespace validation {
-namespace {
+namespace C08 {
 
 // The mass plays no part in what is compared.
 constexpr double m = 0.1, length = 1.0, h = 1e-2, mu_rod = 0.4;
@@ -110,5 +110,5 @@ const Register c08(
      .catches = {Fault::friction_off}},
     run, nullptr, __FILE__);
 
-}  // namespace
+}  // namespace C08
 }  // namespace validation

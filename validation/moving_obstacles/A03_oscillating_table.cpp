@@ -3,7 +3,7 @@
 #include "moving_obstacles/belts.hpp"
 
 namespace validation {
-namespace {
+namespace A03 {
 
 constexpr double mu = 0.3, w = 2 * pi, period = 1.0;
 constexpr int periods = 6;
@@ -156,5 +156,5 @@ const Register a03(
      .catches = {Fault::obstacle_velocity_forgotten, Fault::friction_off}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A03
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "moving_obstacles/belts.hpp"
 
 namespace validation {
-namespace {
+namespace A05 {
 
 constexpr double rate = 2.0, radius = 0.3, mu = 2.0;
 constexpr double lam = kap<3> / (1 + kap<3>);  // 2/7
@@ -105,5 +105,5 @@ const Register a05(
      .catches = {Fault::obstacle_velocity_forgotten, Fault::short_arm, Fault::begin_point}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace A05
 }  // namespace validation

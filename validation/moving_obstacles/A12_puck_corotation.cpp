@@ -2,7 +2,7 @@
 #include "moving_obstacles/belts.hpp"
 
 namespace validation {
-namespace {
+namespace A12 {
 
 constexpr double rate = 2.0, mu = 0.3;
 constexpr double critical = mu * g / (rate * rate);
@@ -102,5 +102,5 @@ const Register a12(
      .catches = {Fault::obstacle_velocity_forgotten, Fault::begin_point, Fault::friction_off}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace A12
 }  // namespace validation

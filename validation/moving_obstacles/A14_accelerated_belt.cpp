@@ -2,7 +2,7 @@
 #include "moving_obstacles/belts.hpp"
 
 namespace validation {
-namespace {
+namespace A14 {
 
 constexpr double b = 1.0, mu = 0.5, radius = 0.2, mass = 1.3;
 
@@ -62,5 +62,5 @@ const Register a14(
      .catches = {Fault::obstacle_velocity_forgotten, Fault::short_arm, Fault::begin_point}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A14
 }  // namespace validation

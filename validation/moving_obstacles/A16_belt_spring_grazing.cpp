@@ -2,7 +2,7 @@
 #include "moving_obstacles/belts.hpp"
 
 namespace validation {
-namespace {
+namespace A16 {
 
 constexpr double mass = 1.0, stiffness = 50.0, belt = 0.2, mu = 0.4, duration = 4.0;
 const double w = std::sqrt(stiffness / mass);
@@ -93,5 +93,5 @@ const Register a16(
      .catches = {Fault::obstacle_velocity_forgotten, Fault::friction_off, Fault::force_at_begin}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A16
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "cradle.hpp"
 
 namespace validation {
-namespace {
+namespace B05 {
 
 /// One step, against velocities along the line.
 template <int Dim>
@@ -107,5 +107,5 @@ const Register b05(
      .catches = {Fault::restitution_weight, Fault::reaction_lost, Fault::residual_ignored}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B05
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "cradle.hpp"
 
 namespace validation {
-namespace {
+namespace B06 {
 
 constexpr std::size_t n = 5;
 constexpr double h = collision_h, v = 1.0;
@@ -101,5 +101,5 @@ const Register b06(
                  Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B06
 }  // namespace validation

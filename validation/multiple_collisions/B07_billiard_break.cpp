@@ -2,7 +2,7 @@
 #include "multiple_collisions.hpp"
 
 namespace validation {
-namespace {
+namespace B07 {
 
 constexpr double radius = 0.1, v = 1.0;
 
@@ -109,5 +109,5 @@ const Register b07(
      .catches = {Fault::restitution_weight, Fault::tilted_normal, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B07
 }  // namespace validation

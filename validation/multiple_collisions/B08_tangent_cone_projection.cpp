@@ -2,7 +2,7 @@
 #include "multiple_collisions.hpp"
 
 namespace validation {
-namespace {
+namespace B08 {
 
 constexpr int dof = 4;
 using Mass = Eigen::Matrix<double, dof, dof>;
@@ -138,5 +138,5 @@ const Register b08(
      .catches = {Fault::pulling_contact, Fault::residual_ignored}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B08
 }  // namespace validation

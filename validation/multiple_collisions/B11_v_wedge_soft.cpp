@@ -2,7 +2,7 @@
 #include "multiple_collisions.hpp"
 
 namespace validation {
-namespace {
+namespace B11 {
 
 constexpr double m = 1.3, radius = 0.2, v = 1.0;
 
@@ -143,5 +143,5 @@ const Register b11(
      .catches = {Fault::restitution_weight, Fault::tilted_normal, Fault::pulling_contact}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B11
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "multiple_collisions.hpp"
 
 namespace validation {
-namespace {
+namespace B12 {
 
 constexpr double m = 1.7, v = 1.0;
 
@@ -106,5 +106,5 @@ const Register b12(
      .catches = {Fault::restitution_weight, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B12
 }  // namespace validation

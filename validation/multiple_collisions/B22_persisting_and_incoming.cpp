@@ -3,7 +3,7 @@
 #include "multiple_collisions.hpp"
 
 namespace validation {
-namespace {
+namespace B22 {
 
 constexpr double radius = 0.1, v = 1.0;
 
@@ -133,5 +133,5 @@ const Register b22(
      .catches = {Fault::restitution_weight, Fault::reaction_lost, Fault::residual_ignored}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B22
 }  // namespace validation

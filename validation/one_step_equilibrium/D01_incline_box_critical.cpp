@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D01 {
 
 template <int Dim>
 void run(Trial<Dim>& trial) {
@@ -45,5 +45,5 @@ const Register d01(
      .catches = {Fault::friction_off, Fault::pulling_contact}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D01
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D02 {
 
 constexpr talus::MaterialIndex ladder_side = 0, floor_side = 1, wall_side = 2;
 
@@ -55,5 +55,5 @@ const Register d02(
      .catches = {Fault::friction_off, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D02
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "pyramid.hpp"
 
 namespace validation {
-namespace {
+namespace D03 {
 
 void run(Trial<2>& trial) {
     const double between = 2 - std::sqrt(3.0);
@@ -30,5 +30,5 @@ const Register d03(
      .catches = {Fault::friction_off, Fault::residual_ignored, Fault::tilted_normal}},
     run, nullptr, __FILE__);
 
-}  // namespace
+}  // namespace D03
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "pyramid.hpp"
 
 namespace validation {
-namespace {
+namespace D04 {
 
 void run(Trial<3>& trial) {
     const double three = std::sqrt(3.0) - std::sqrt(2.0), four = std::sqrt(2.0) - 1;
@@ -34,5 +34,5 @@ const Register d04(
      .catches = {Fault::friction_off, Fault::faceted_cone}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace D04
 }  // namespace validation

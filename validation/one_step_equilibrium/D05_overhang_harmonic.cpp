@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D05 {
 
 constexpr double half_length = 0.5, half_height = 0.1;
 
@@ -58,5 +58,5 @@ const Register d05(
      .catches = {Fault::pulling_contact, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D05
 }  // namespace validation

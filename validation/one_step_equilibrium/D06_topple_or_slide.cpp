@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D06 {
 
 template <int Dim>
 void run(Trial<Dim>& trial) {
@@ -57,5 +57,5 @@ const Register d06(
      .catches = {Fault::friction_off, Fault::short_arm, Fault::pulling_contact}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D06
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D08 {
 
 /// A ball of unit weight between two planes that rise to the left at angle `left` and to the right
 /// at angle `right`. Bodies 0 and 1 are the planes.
@@ -58,5 +58,5 @@ const Register d08(
      .catches = {Fault::tilted_normal, Fault::residual_ignored}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D08
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D09 {
 
 /// Floor (body 0), left wall (1), right wall (2), lower ball (3), upper ball (4), each of weight 1
 /// and radius 1.
@@ -51,5 +51,5 @@ const Register d09(
      .catches = {Fault::tilted_normal, Fault::residual_ignored, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D09
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D10 {
 
 constexpr int blocks = 10;
 constexpr double mu = 0.5;
@@ -119,5 +119,5 @@ const Register d10(
      .catches = {Fault::wrong_warm_start, Fault::residual_ignored}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D10
 }  // namespace validation

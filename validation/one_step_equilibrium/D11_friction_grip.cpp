@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D11 {
 
 constexpr double mu = 0.4;
 constexpr talus::MaterialIndex rough = 0, smooth = 1;
@@ -101,5 +101,5 @@ const Register d11(
      .catches = {Fault::friction_off, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D11
 }  // namespace validation

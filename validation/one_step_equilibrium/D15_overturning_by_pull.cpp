@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D15 {
 
 constexpr double mu = 0.3, half_width = 0.2, half_height = 0.5;
 
@@ -63,5 +63,5 @@ const Register d15(
      .catches = {Fault::friction_off, Fault::short_arm, Fault::pulling_contact}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D15
 }  // namespace validation

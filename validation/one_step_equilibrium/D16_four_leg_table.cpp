@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D16 {
 
 constexpr double load = 0.7;  // relative to the table's weight
 const V<3> place(0.2, 0.1, 0.0);
@@ -56,5 +56,5 @@ const Register d16(
      .catches = {Fault::short_arm, Fault::residual_ignored}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace D16
 }  // namespace validation

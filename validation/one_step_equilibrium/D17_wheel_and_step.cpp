@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D17 {
 
 constexpr double radius = 1.0, rise = 0.3;
 
@@ -58,5 +58,5 @@ const Register d17(
      .catches = {Fault::tilted_normal, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D17
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D18 {
 
 constexpr double radius = 0.5;
 
@@ -82,5 +82,5 @@ const Register d18(
      .catches = {Fault::end_point_drift, Fault::short_arm}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D18
 }  // namespace validation

@@ -3,7 +3,7 @@
 #include "harness/case.hpp"
 
 namespace validation {
-namespace {
+namespace U01 {
 
 template <int Dim>
 void run(Trial<Dim>& trial) {
@@ -52,5 +52,5 @@ const Register u01(
      .catches = {Fault::friction_off, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace U01
 }  // namespace validation

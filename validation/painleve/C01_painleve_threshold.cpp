@@ -5,7 +5,7 @@
 #include "sliding_rod.hpp"
 
 namespace validation {
-namespace {
+namespace C01 {
 
 /// The assembled block of the tip in the plane: W_nn, |W_nt|, and the rest.
 template <int Dim>
@@ -82,5 +82,5 @@ const Register c01(
      .catches = {Fault::short_arm, Fault::tilted_normal, Fault::stale_inertia}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace C01
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "sliding_rod.hpp"
 
 namespace validation {
-namespace {
+namespace C02 {
 
 template <int Dim>
 void run(Trial<Dim>& trial) {
@@ -67,5 +67,5 @@ const Register c02(
      .catches = {Fault::short_arm, Fault::tilted_normal}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace C02
 }  // namespace validation

@@ -4,7 +4,7 @@
 #include "sliding_rod.hpp"
 
 namespace validation {
-namespace {
+namespace C03 {
 
 /// The tip lifts by 4e-6 m up to the midpoint; it is meant to be in contact.
 constexpr double closed = 1e-4;
@@ -104,5 +104,5 @@ const Register c03(
      .catches = {Fault::begin_point, Fault::pulling_contact}},
     run, nullptr, __FILE__);
 
-}  // namespace
+}  // namespace C03
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "sliding_rod.hpp"
 
 namespace validation {
-namespace {
+namespace C04 {
 
 void run(Trial<2>& trial) {
     const double mu = 2.0;
@@ -70,5 +70,5 @@ const Register c04(
      .catches = {Fault::friction_off, Fault::short_arm, Fault::tilted_normal}},
     run, nullptr, __FILE__);
 
-}  // namespace
+}  // namespace C04
 }  // namespace validation

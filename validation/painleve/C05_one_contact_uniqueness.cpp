@@ -5,7 +5,7 @@
 #include "tests/common/coulomb_enumeration.hpp"
 
 namespace validation {
-namespace {
+namespace C05 {
 
 /// The tip's block; in space the axis across the rod comes last.
 template <int Dim>
@@ -98,5 +98,5 @@ const Register c05(
      .catches = {Fault::friction_off, Fault::pulling_contact, Fault::axis_bias}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace C05
 }  // namespace validation

@@ -5,7 +5,7 @@
 #include "sliding_rod.hpp"
 
 namespace validation {
-namespace {
+namespace C09 {
 
 constexpr double mu = 2.0;
 
@@ -156,5 +156,5 @@ const Register c09(
      .catches = {Fault::friction_off, Fault::short_arm}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace C09
 }  // namespace validation

@@ -3,7 +3,7 @@
 #include "rocking_block.hpp"
 
 namespace validation {
-namespace {
+namespace B18 {
 
 constexpr double h = 1e-3, spin = 1.0;
 
@@ -146,5 +146,5 @@ const Register b18(
      .catches = {Fault::friction_off, Fault::short_arm, Fault::restitution_weight}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B18
 }  // namespace validation

@@ -3,7 +3,7 @@
 #include "rocking_block.hpp"
 
 namespace validation {
-namespace {
+namespace B19 {
 
 const RockingBlock block{0.1, 0.4};
 
@@ -167,5 +167,5 @@ const Register b19(
      .catches = {Fault::short_arm, Fault::begin_point}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B19
 }  // namespace validation

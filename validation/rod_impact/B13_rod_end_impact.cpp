@@ -2,7 +2,7 @@
 #include "harness/case.hpp"
 
 namespace validation {
-namespace {
+namespace B13 {
 
 constexpr double m = 1.0, length = 1.0, v = 1.0, h = 1e-3;
 
@@ -127,5 +127,5 @@ const Register b13(
      .catches = {Fault::short_arm, Fault::restitution_weight, Fault::stale_inertia}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace B13
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "rolling/round_body.hpp"
 
 namespace validation {
-namespace {
+namespace A04 {
 
 constexpr double speed = 2.0, mu = 0.3, mass = 1.7, radius = 0.3;
 
@@ -50,5 +50,5 @@ const Register a04(
      .catches = {Fault::short_arm, Fault::friction_off, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A04
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "rolling/round_body.hpp"
 
 namespace validation {
-namespace {
+namespace A07 {
 
 constexpr double speed = 2.0, mu = 0.3, mass = 1.0, radius = 0.1;
 
@@ -69,5 +69,5 @@ const Register a07(
      .catches = {Fault::short_arm, Fault::friction_off, Fault::faceted_cone, Fault::axis_bias}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A07
 }  // namespace validation

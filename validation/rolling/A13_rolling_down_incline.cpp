@@ -2,7 +2,7 @@
 #include "rolling/round_body.hpp"
 
 namespace validation {
-namespace {
+namespace A13 {
 
 constexpr double mu = 0.2, radius = 0.1, mass = 1.3;
 
@@ -68,5 +68,5 @@ const Register a13(
      .catches = {Fault::short_arm, Fault::friction_off, Fault::tilted_normal}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A13
 }  // namespace validation

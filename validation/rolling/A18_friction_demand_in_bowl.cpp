@@ -2,7 +2,7 @@
 #include "rolling/bowl.hpp"
 
 namespace validation {
-namespace {
+namespace A18 {
 
 /// Ratio of friction to normal force that rolling from rest at the release needs at the angle th.
 template <int Dim>
@@ -93,5 +93,5 @@ const Register a18(
      .catches = {Fault::friction_off, Fault::short_arm}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A18
 }  // namespace validation

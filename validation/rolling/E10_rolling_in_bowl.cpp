@@ -3,7 +3,7 @@
 #include "rolling/bowl.hpp"
 
 namespace validation {
-namespace {
+namespace E10 {
 
 constexpr double mu = 5.0;
 
@@ -105,5 +105,5 @@ const Register e10(
      .catches = {Fault::short_arm, Fault::begin_point}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace E10
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "sliding_block/block.hpp"
 
 namespace validation {
-namespace {
+namespace A01 {
 
 constexpr double slope = 20 * degree;
 /// Either side of tan 20 degrees = 0.36397.
@@ -87,5 +87,5 @@ const Register a01(
      .catches = {Fault::friction_off, Fault::tilted_normal}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A01
 }  // namespace validation

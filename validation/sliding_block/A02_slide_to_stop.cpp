@@ -2,7 +2,7 @@
 #include "sliding_block/block.hpp"
 
 namespace validation {
-namespace {
+namespace A02 {
 
 constexpr double speed = 3.0, mu = 0.3;
 
@@ -68,5 +68,5 @@ const Register a02(
      .catches = {Fault::friction_off, Fault::faceted_cone, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A02
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "sliding_block/block.hpp"
 
 namespace validation {
-namespace {
+namespace A08 {
 
 constexpr double mass = 1.0, mu = 0.3, rate = 5.0;
 
@@ -76,5 +76,5 @@ const Register a08(
      .catches = {Fault::friction_off, Fault::force_at_begin, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A08
 }  // namespace validation

@@ -2,7 +2,7 @@
 #include "sliding_block/block.hpp"
 
 namespace validation {
-namespace {
+namespace A09 {
 
 constexpr double speed = 2.0, mu = 0.3, h = 1e-3;
 
@@ -93,5 +93,5 @@ const Register a09(
      .catches = {Fault::faceted_cone, Fault::axis_bias}},
     nullptr, run, __FILE__);
 
-}  // namespace
+}  // namespace A09
 }  // namespace validation

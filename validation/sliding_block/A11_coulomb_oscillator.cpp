@@ -2,7 +2,7 @@
 #include "sliding_block/block.hpp"
 
 namespace validation {
-namespace {
+namespace A11 {
 
 constexpr double mass = 1.0, stiffness = 100.0, mu = 0.2, x_start = 0.1;
 constexpr double dead_zone = mu * mass * g / stiffness;
@@ -109,5 +109,5 @@ const Register a11(
      .catches = {Fault::friction_off, Fault::force_at_begin, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A11
 }  // namespace validation

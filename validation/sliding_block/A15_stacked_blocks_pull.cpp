@@ -2,7 +2,7 @@
 #include "sliding_block/block.hpp"
 
 namespace validation {
-namespace {
+namespace A15 {
 
 constexpr double m_top = 1.0, m_low = 2.0, total = m_top + m_low;
 constexpr double mu_top = 0.3, mu_low = 0.2;
@@ -96,5 +96,5 @@ const Register a15(
      .catches = {Fault::friction_off, Fault::reaction_lost, Fault::residual_ignored}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A15
 }  // namespace validation

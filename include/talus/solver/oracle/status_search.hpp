@@ -3,11 +3,10 @@
 
 #include <talus/core/instantiate.hpp>
 #include <talus/core/types.hpp>
+#include <talus/linear/dense_solve.hpp>
 #include <talus/solver/oracle/slip_angle.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -51,8 +50,6 @@ class StatusSearch {
 
     static constexpr double rounding = 1e-9;  ///< of what inequalities may be missed by, relatively
 
-    /// x with a x = b; the one of least norm, and false, where `a` is singular to rounding.
-    static bool solve_dense(const Mat& a, const Vec& b, Vec& x);
     void try_statuses(std::size_t contact);
     void try_directions(std::size_t slider);
     void assemble();
@@ -91,8 +88,8 @@ class StatusSearch {
     bool singular_ = false;
 };
 
-// Members, and not inline: dense factorisations take seconds to compile, which whoever includes
-// this and does not search is spared.
+// Not inline: dense products take seconds to compile, which whoever includes this and does not
+// search is spared.
 
 template <int Dim>
 requires SpaceDimension<Dim>
@@ -109,25 +106,6 @@ void StatusSearch<Dim>::run(Mat w, Vec q, std::vector<double> mu, int max_combin
     status_.assign(mu_.size(), ContactStatus::open);
     angle_.assign(mu_.size(), 0.0);
     try_statuses(0);
-}
-
-template <int Dim>
-requires SpaceDimension<Dim>
-bool StatusSearch<Dim>::solve_dense(const Mat& a, const Vec& b, Vec& x) {
-    x.resize(a.rows());
-    if (a.rows() == 0) return true;
-    constexpr double rank = 1e-11;
-    Eigen::FullPivLU<Mat> lu(a);
-    lu.setThreshold(rank);
-    if (!lu.isInvertible()) {
-        Eigen::CompleteOrthogonalDecomposition<Mat> least(a);
-        least.setThreshold(rank);
-        x = least.solve(b);
-        return false;
-    }
-    x = lu.solve(b);
-    x += lu.solve(Vec(b - a * x));
-    return true;
 }
 
 template <int Dim>
@@ -240,7 +218,7 @@ bool StatusSearch<Dim>::follow_directions() {
         if (f.norm() <= 1e-14 * speed) return true;
         if (singular_) return false;
         // u_n of sliding and u of stuck contacts stay zero: the other impulses follow.
-        const Mat du = change - w_ * rays_ * a_.fullPivLu().solve(rows_ * change);
+        const Mat du = change - w_ * rays_ * solved_dense(a_, rows_ * change);
         Mat jacobian(count, count);
         for (Index s = 0; s < count; ++s) {
             const std::size_t c = sliders_[static_cast<std::size_t>(s)];
@@ -251,7 +229,7 @@ bool StatusSearch<Dim>::follow_directions() {
             // The direction across turns as well.
             jacobian(s, s) -= u_.template segment<Dim - 1>(i + 1).dot(Slip::direction(angle_[c]));
         }
-        Vec turn = -jacobian.fullPivLu().solve(f);
+        Vec turn = -solved_dense(jacobian, f);
         if (!turn.allFinite()) return false;
         // Beyond that the trigonometric functions are not near to linear.
         constexpr double longest = 0.5;  // [rad]
@@ -270,7 +248,7 @@ requires SpaceDimension<Dim> std::pair<double, double> StatusSearch<Dim>::turnin
     const std::size_t c = sliders_[0];
     angle_[c] = angle;
     solve_linear();
-    const double d = singular_ ? 0.0 : a_.determinant();
+    const double d = singular_ ? 0.0 : dense_determinant(a_);
     const Index i = first(c);
     return {d, d * u_.template segment<Dim - 1>(i + 1).dot(Slip::turned(angle))};
 }
