@@ -9,12 +9,12 @@
 #endif
 #endif
 
-/// How often a random case is repeated: `usual` times, or `sanitized` times under sanitizers, where
-/// each takes ten times as long and what is looked for is not a rare number.
-constexpr int repetitions([[maybe_unused]] int usual, [[maybe_unused]] int sanitized) {
-#ifdef TALUS_SANITIZED
-    return sanitized;
+/// How often a random case is repeated: `full` times by tests/run --full without sanitizers (under
+/// which each takes ten times as long), `brief` times for every change.
+constexpr int repetitions([[maybe_unused]] int full, [[maybe_unused]] int brief) {
+#if defined(TALUS_FULL_TESTS) && !defined(TALUS_SANITIZED)
+    return full;
 #else
-    return usual;
+    return brief;
 #endif
 }

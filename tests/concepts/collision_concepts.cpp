@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace {
+namespace collision_concepts {
 
 /// The least a broad phase may be.
 struct BroadPhaseArchetype {
@@ -29,4 +29,4 @@ static_assert(talus::BroadPhase<talus::BruteForce<2>, 2>);
 static_assert(talus::BroadPhase<talus::HierarchicalGrid<3>, 3>);
 static_assert(!talus::BroadPhase<talus::HierarchicalGrid<3>, 2>);
 
-}  // namespace
+}  // namespace collision_concepts

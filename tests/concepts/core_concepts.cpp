@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-namespace {
+namespace core_concepts {
 
 template <int Dim>
 constexpr bool is_space = talus::SpaceDimension<Dim>;
@@ -42,4 +42,4 @@ concept Scales = requires(const M& m, S s) {
 static_assert(Scales<talus::Vector<3>, double> && Scales<talus::Vector<3>, int>);
 static_assert(!Scales<talus::SmallMatrix<3, 1, int>, double>, "halves of whole numbers are zero");
 
-}  // namespace
+}  // namespace core_concepts

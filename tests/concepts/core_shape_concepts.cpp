@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/geometry/any_shape.hpp>
 
-namespace {
+namespace core_shape_concepts {
 
 /// The least that the narrow phase treats by its vertices, edges and faces.
 template <int Dim>
@@ -26,4 +26,4 @@ static_assert(talus::SolidShape<Mixed<2>, 2> && talus::SolidShape<Mixed<3>, 3>);
 static_assert(!talus::ConvexShape<Mixed<3>, 3>, "it may hold what is not convex");
 static_assert(!std::is_constructible_v<Mixed<3>, talus::Box<3>>, "the list is closed");
 
-}  // namespace
+}  // namespace core_shape_concepts

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/geometry/concepts.hpp>
 
-namespace {
+namespace geometry_concepts {
 
 using talus::Aabb;
 using talus::MassProperties;
@@ -57,4 +57,4 @@ struct ScalarSupport : Located<2> {
 };
 static_assert(!talus::ConvexShape<ScalarSupport, 2>, "the support is a point, not a distance");
 
-}  // namespace
+}  // namespace geometry_concepts

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/prepared.hpp>
 
-namespace {
+namespace law_concepts {
 
 using talus::LocalProblem;
 using talus::Matrix;
@@ -57,4 +57,4 @@ static_assert(is_contact<2> && is_contact<3> && is_contact<5> && !is_contact<4> 
 static_assert(!is_rolling<2> && is_rolling<3> && is_rolling<5>);
 static_assert(!talus::has_rolling_rows<Archetype<3>>);
 
-}  // namespace
+}  // namespace law_concepts

@@ -5,7 +5,7 @@
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
 
-namespace {
+namespace problem_concepts {
 
 using talus::Matrix;
 using talus::Vector;
@@ -48,4 +48,4 @@ static_assert(OfRigidBodies<talus::Coulomb<3>, 3> && !OfRigidBodies<Rolling, 3>)
 static_assert(!OfRigidBodies<talus::AnyLaw<3, talus::Coulomb<3>, Rolling>, 3>);
 static_assert(!OfRigidBodies<talus::RollingCoulomb<5>, 5>);
 
-}  // namespace
+}  // namespace problem_concepts

@@ -11,7 +11,7 @@
 #include <talus/solver/cones/inexact_interior_point.hpp>
 #include <talus/solver/oracle/enumeration.hpp>
 
-namespace {
+namespace solver_concepts {
 
 using Law = talus::Signorini<3>;
 using Problem = talus::ContactProblem<3, Law>;
@@ -67,4 +67,4 @@ static_assert(cone_engines_refuse<3, HalfACone> &&
 static_assert(Takes<talus::Automatic, 3, talus::Bilateral<3>> &&
               Takes<talus::Automatic, 3, HalfACone>);
 
-}  // namespace
+}  // namespace solver_concepts
