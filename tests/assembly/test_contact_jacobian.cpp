@@ -111,4 +111,15 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(an_impulse_pushes_a_along_the_normal, D, dimension
     BOOST_CHECK_GT(talus::relative_velocity<Dim>(s.jacobian, 0, dv)[0], 0.0);
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_jacobian_of_another_size_is_that_in_all_its_parts, D, dimensions) {
+    talus::ContactJacobian<D::value> jacobian;
+    jacobian.resize(2);
+    jacobian.held.assign(2, 0.5);
+    jacobian.make_room(10);
+    BOOST_TEST(jacobian.held.capacity() >= 10U);
+    jacobian.resize(5);
+    BOOST_TEST(jacobian.held.size() == 5U);
+    BOOST_TEST((jacobian.held[1] == 0.5 && jacobian.held[4] == 0.0));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -184,6 +184,29 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(impulses_that_hide_a_violation_in_their_last_digit
     }
 }
 
+// A mass that a floor holds, at V = 1, while walls close at a thousandth of that: however large the
+// impulses between the walls, what they hide is never called solved at the usual tolerance.
+BOOST_AUTO_TEST_CASE_TEMPLATE(no_impulse_hides_a_thousandth_of_the_loads, D, dimensions) {
+    constexpr int dim = D::value;
+    using Vec = talus::Vector<dim>;
+    auto p = twice(between_walls<dim>(1e-3));
+    p.jacobian.a[2] = p.jacobian.a[0];
+    p.jacobian.b[2] = p.jacobian.b[0];
+    p.jacobian.frame[2] = p.jacobian.frame[0];
+    p.jacobian.frame[2].row(0).swap(p.jacobian.frame[2].row(1));
+    p.free_velocity[2] = -Vec::Unit(0);
+    // The fourth contact is of a body of its own, in no difficulty: never the worst one.
+    p.free_velocity[3] = -Vec::Unit(0);
+    for (const double large : {1.0, 1e6, 1e9, 1e10, 2e10, 1e11, 2e11, 1e12, 1e14}) {
+        std::vector<Vec> r(4, large * Vec::Unit(0));
+        r[2] = r[3] = Vec::Unit(0);
+        const auto found = talus::residual(p, std::span<const Vec>(r));
+        BOOST_TEST_INFO_SCOPE("impulses of " << large);
+        BOOST_TEST(found.relative > 0.75e-4);
+        BOOST_TEST(found.worst_contact < 2U);
+    }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_jam_that_a_solve_begins_with_is_no_violation, D, dimensions) {
     constexpr int dim = D::value;
     using Vec = talus::Vector<dim>;
@@ -204,6 +227,14 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_jam_that_a_solve_begins_with_is_no_violation, D,
     BOOST_TEST(judge({}) >= 1.0);
     const std::vector<Vec> small(2, 1e-6 * Vec::Unit(0));
     BOOST_TEST(judge(small) >= 1.0);
+    // The same from scratch.
+    const std::span<const Vec> jam(r);
+    BOOST_TEST(talus::residual(p, jam, jam).relative == 0.0);
+    BOOST_TEST(talus::residual(p, jam).relative >= 1.0);
+    // Loads beyond the rounding of such impulses are no jam: neither solved nor in between.
+    for (const double closing : {1e-13, 1e-12, 3.9e-12, 4.1e-12, 3.9e-11, 4.1e-11, 1e-9})
+        BOOST_TEST(talus::residual(between_walls<dim>(closing), jam, jam).relative > 2e-4,
+                   "closing at " << closing);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(islands_are_the_same_by_bodies_and_by_blocks, D, dimensions) {

@@ -37,6 +37,7 @@ struct ContactJacobian {
         detail::make_room(frame, n);
         detail::make_room(arm_a, n);
         detail::make_room(arm_b, n);
+        if (!held.empty()) detail::make_room(held, n);
     }
     void resize(std::size_t n) {
         a.resize(n);
@@ -44,6 +45,7 @@ struct ContactJacobian {
         frame.resize(n);
         arm_a.resize(n);
         arm_b.resize(n);
+        if (!held.empty()) held.resize(n);
     }
 };
 

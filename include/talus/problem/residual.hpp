@@ -36,6 +36,8 @@ struct Residual {
 
     /// Of `contact` in `relative`.
     static constexpr double share_of_contact = 0.1;
+    /// A `contact` that no impulses at all would hardly exceed: without them it is 1 or less.
+    static constexpr double worse_than_none = 10.0;
 
     bool finite() const { return std::isfinite(relative); }
     /// Sets `relative` from the other two. What is not finite in the whole stays so.
@@ -94,12 +96,18 @@ class ContactScales {
 
     /// Before the contacts are judged.
     void begin() {
-        for (Island& island : island_) island.largest = island.error = 0.0;
+        for (Island& island : island_) {
+            island.largest = island.error = 0.0;
+            island.worst = island.strongest = 0;
+        }
     }
     /// Contact i: squares of the velocity by which its law is violated and of r_i / rho_i.
     void see(std::size_t i, double error, double largest) {
         Island& island = island_[label_[i]];
-        if (largest > island.largest) island.largest = largest;
+        if (largest > island.largest) {
+            island.largest = largest;
+            island.strongest = i;
+        }
         if (!(error > island.error)) return;
         island.error = error;
         island.worst = i;
@@ -111,17 +119,20 @@ class ContactScales {
             result.velocity = std::max(result.velocity, error);
             const double largest = std::sqrt(island.largest);
             const double v = free_scale(island);
-            // Loads that are what the self-stress of a jam has left of zero: it is its own scale.
-            const double scale = v > island.noise ? v : std::max(v, largest);
+            // Without any load impulses may only be self-stress, whatever a solve begins with.
+            const double noise = v > 0.0 ? island.noise : std::max(island.noise, lost * largest);
+            const bool jam = v <= noise;
+            const double scale = jam ? noise : v;
             const double rounded = rounding * (largest + fastest_);
             if (scale > 0.0) result.rounding = std::max(result.rounding, rounded / scale);
             const double counted = error - rounded;
             double zeta = 0.0;
             if (counted > 0.0) zeta = scale > 0.0 ? counted / scale : 1.0;
-            if (1.01 * lost * largest > scale) zeta = std::max(zeta, illegible);
+            const bool illegible = lost * largest > (jam ? growth : 1.0) * scale;
+            if (illegible) zeta = std::max(zeta, Residual::worse_than_none);
             if (!(zeta > result.contact)) continue;
             result.contact = zeta;
-            result.worst_contact = island.worst;
+            result.worst_contact = illegible ? island.strongest : island.worst;
         }
     }
 
@@ -132,15 +143,18 @@ class ContactScales {
         double noise = 0.0;     ///< what free velocities are when they should be zero [m/s]
         double error = 0.0;     ///< square of the largest velocity of violation [m^2/s^2]
         double largest = 0.0;   ///< of the squares of r_c / rho_c [m^2/s^2]
-        std::size_t worst = 0;  ///< contact
+        std::size_t worst = 0, strongest = 0;  ///< contacts of `error` and of `largest`
     };
     static constexpr double nothing = 1e-12, share_of_speed = 1e-3;
     /// Of the last digits of velocities that large.
     static constexpr double rounding = 32.0 * std::numeric_limits<double>::epsilon();
-    /// V over the largest r / rho, below which a jam that a solve begins with explains V, and
-    /// impulses that have become so large hide it, for which zeta is no less than `illegible`. One
-    /// number for both, so that a jam is never in between.
-    static constexpr double lost = 4e-12, illegible = 10.0;
+    /// V over the largest r / rho, below which impulses hide it in their digits, and below which a
+    /// jam that a solve begins with explains it: `rounding` of r / rho is then up to 2e-4 of V,
+    /// less than the 1e-3 of V that a tolerance of 1e-4 allows. One number for both, so that no jam
+    /// is in between: what it begins with, V does not hide.
+    static constexpr double lost = 4e-11;
+    /// How often the largest impulse that it begins with a jam may have.
+    static constexpr double growth = 1.01;
     double free_scale(const Island& island) const {
         const double v = std::max(island.violated, share_of_speed * island.fastest);
         return v > nothing * fastest_ ? v : share_of_speed * fastest_;
@@ -177,19 +191,22 @@ class ContactScales {
 /// under gravity V is h g, and never less than a thousandth of the largest u_free of the island, so
 /// that contacts which separate by themselves are not judged by nothing; what happens elsewhere,
 /// however fast, hides nothing. (An island in which nothing moves, to 1e-12 of the largest u_free
-/// anywhere, has no scale of its own: V is a thousandth of that. Where V is no more than 4e-12 of
+/// anywhere, has no scale of its own: V is a thousandth of that. Where V is no more than 4e-11 of
 /// the largest r_c / rho_c that a solve begins with, as in a wedge that stays jammed without loads,
-/// V is the largest r_c / rho_c.) What the rounding of the largest velocity r_c / rho_c of the
-/// island, and of the largest of u_free anywhere, explains is not counted as an error; but where V
-/// is less than 4e-12 of that velocity, too little of V is left in its digits, and zeta is at least
-/// 10: a body between obstacles that close on it would have impulses without end, beside which the
-/// violation is no more than a last digit. A tenth of it is asked for, since the worst of many
-/// contacts is some way above their mean: in piles at rest zeta is some 400 eta.
+/// it is what rounding has left of zero, and V is those 4e-11 themselves: a jam must balance to its
+/// last digits.) What the rounding of the largest velocity r_c / rho_c of the island, and of the
+/// largest of u_free anywhere, explains, 32 epsilon of them, is not counted as an error; but where
+/// V is less than 4e-11 of that velocity, too little of V is left in its digits, and zeta is at
+/// least 10: a body between obstacles that close on it would have impulses without end, beside
+/// which the violation is no more than a last digit. A tenth of zeta is asked for, since the worst
+/// of many contacts is some way above their mean: in piles at rest zeta is some 400 eta.
 ///
-/// What it means for motion. A contact's overlap grows by no more than 10 tolerance V h sqrt(1 +
-/// mu^2) in a step for want of accuracy: at rest, where V = g h, by some 1e-3 g h^2 at a tolerance
-/// of 1e-4. A contact of an island that something fast has hit is judged in the scale of that: it
-/// may be left to fall freely for a step where its g h is a thousandth of the fastest violation.
+/// What it means for motion. A contact's overlap grows by no more than (10 tolerance + 2e-4) V h
+/// sqrt(1 + mu^2) in a step for want of accuracy, where the 2e-4 are what rounding may explain of
+/// V at the very most, beside impulses of 2.5e10 times V: at rest, where V = g h, by some 1e-3 g
+/// h^2 at a tolerance of 1e-4. A contact of an island that something fast has hit is judged in the
+/// scale of that: it may be left to fall freely for a step where its g h is a thousandth of the
+/// fastest violation.
 ///
 /// Conventions. 0/0 is 0. If the scale is 0 and the error is not (a law that attracts), eta and
 /// zeta are 1. A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Rows
@@ -292,13 +309,19 @@ class ResidualMeasure {
 };
 
 /// The measure for a whole problem at impulses r, from scratch. Allocates; solvers keep a
-/// ResidualMeasure instead. Throws input_error unless there is one impulse per contact.
+/// ResidualMeasure instead. `start`, one impulse per contact or none: those that the solver began
+/// with, without which a jam with loads of rounding alone is not told from impulses without end.
+/// Throws input_error unless there is one impulse per contact.
 template <int Dim, class Law>
-Residual residual(const ContactProblem<Dim, Law>& problem, std::span<const Vector<Dim>> r) {
+Residual residual(const ContactProblem<Dim, Law>& problem, std::span<const Vector<Dim>> r,
+                  std::span<const Vector<Dim>> start = {}) {
     require_count("impulses", r.size(), "contacts", problem.contact_count());
+    if (!start.empty())
+        require_count("impulses of the start", start.size(), "contacts", problem.contact_count());
     DelassusProduct<Dim> w(problem.jacobian, problem.inverse_mass);
     ResidualMeasure<Dim> measure;
-    measure.template prepare<DelassusProduct<Dim>, Law>(w, problem.free_velocity, problem.laws);
+    measure.template prepare<DelassusProduct<Dim>, Law>(w, problem.free_velocity, problem.laws,
+                                                        start);
     w.start(r);
     return measure.template evaluate<Law>(problem.free_velocity, problem.laws, r,
                                           [&](std::size_t i) { return w.velocity(i); });

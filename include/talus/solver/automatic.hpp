@@ -85,6 +85,7 @@ class Automatic {
         require_non_negative("max_factorizations", params.max_factorizations);
         require_non_negative("max_factor_bytes", params.max_factor_bytes);
         report_ = {};
+        start_.assign(task.r.begin(), task.r.end());
         let_engines_work(task);
         if (report_.status != SolveStatus::not_finite) {
             memory_.return_to_best(task.r, report_.residual);
@@ -101,15 +102,21 @@ class Automatic {
     template <class T>
     void judge_contacts(T& task) {
         measure_.template prepare<std::remove_reference_t<decltype(task.w)>, Law>(
-            task.w, task.free_velocity, task.laws, task.r);
+            task.w, task.free_velocity, task.laws, start_);
         task.w.start(task.r);
         const Residual now =
             measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
                                             [&](std::size_t i) { return task.w.velocity(i); });
         report_.whole = now.whole;
         report_.contact_error = now.contact;
+        report_.rounding = now.rounding;
         report_.velocity_error = now.velocity;
         report_.worst_contact = now.worst_contact;
+        // An engine that went on from impulses of another one took them for a jam's.
+        if (report_.status == SolveStatus::converged && now.contact >= Residual::worse_than_none) {
+            report_.status = SolveStatus::stalled;
+            report_.residual = now.relative;
+        }
     }
 
     template <class T>
@@ -242,7 +249,7 @@ class Automatic {
     bool take_system(T& task) {
         if (params.max_factorizations == 0) return false;
         team_.begin(params.tolerance, params.max_factorizations);
-        if (!team_.take(task, measure_, params.max_factor_bytes)) return false;
+        if (!team_.take(task, start_, measure_, params.max_factor_bytes)) return false;
         constexpr double cost_of_pass = 2.6;  // visits of each contact
         passes_per_factorization_ = team_.factorization_cost() / (cost_of_pass * task.visits);
         return true;
@@ -312,7 +319,7 @@ class Automatic {
     RigidBodyOperators<Dim> bodies_;
     ResidualMeasure<Dim> measure_;
     ImpulseMemory<Dim> memory_;
-    std::vector<Vector<Dim>> velocity_;
+    std::vector<Vector<Dim>> velocity_, start_;
     SolveReport report_;
     int sweeps_left_ = 0;
     int last_passes_ = 0, passes_ = 0;

@@ -51,13 +51,15 @@ class ConeTeam<Dim, Law> {
         polished_at_ = unpolished;
         overlap_proven_ = false;
     }
-    /// Takes the problem in. False if a contact has no cone, as one of AnyLaw's may.
+    /// Takes the problem in, and what its solve began with. False if a contact has no cone, as one
+    /// of AnyLaw's may.
     template <class T>
-    bool take(T& task, ResidualMeasure<Dim>& measure, double max_bytes) {
+    bool take(T& task, std::span<const Vector<Dim>> start, ResidualMeasure<Dim>& measure,
+              double max_bytes) {
         auto cones = cones_of<Dim>(task.laws);
         if (!cones) return false;
         measure.template prepare<std::remove_reference_t<decltype(task.w)>, Law>(
-            task.w, task.free_velocity, task.laws, task.r);
+            task.w, task.free_velocity, task.laws, start);
         assign(task, std::move(*cones), measure);
         if (system_.factorization_bytes() > max_bytes) factorizations_left_ = 0;
         return true;

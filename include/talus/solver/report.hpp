@@ -44,6 +44,8 @@ struct SolveReport {
     double whole = 0.0;     ///< relative natural-map residual of all contacts together [-]
     /// The same of the worst contact, in the scale of its island [-].
     double contact_error = 0.0;
+    /// What rounding beside impulses that large may hide of that [-].
+    double rounding = 0.0;
     double velocity_error = 0.0;    ///< largest velocity by which a contact violates its law [m/s]
     std::size_t worst_contact = 0;  ///< the contact that is worst in the scale of its island
     std::vector<ResidualSample> history;  ///< residuals evaluated on the way, in order
@@ -58,6 +60,7 @@ struct SolveReport {
         residual = r.relative;
         whole = r.whole;
         contact_error = r.contact;
+        rounding = r.rounding;
         velocity_error = r.velocity;
         worst_contact = r.worst_contact;
     }

@@ -11,17 +11,16 @@
 namespace talus {
 
 /// Share of body i in the gaps that a gap-anticipating step of size h [s] looks at: how far its
-/// surface may travel in one step under its present velocity and twice gravity, zero for an
-/// obstacle at rest [m]. Bodies that impulses make faster than that meet new contacts as in the
-/// midpoint scheme.
+/// surface may travel in one step under its present velocity and twice `gained`, what loads add to
+/// that in the step [m/s]; zero for an obstacle at rest [m]. Bodies that impulses make faster than
+/// that meet new contacts as in the midpoint scheme.
 template <int Dim>
 double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bounding_radius,
-                          const Vector<Dim>& gravity, double h) {
+                          double gained, double h) {
     const double spin = bodies.spin[i].norm();
     const double turning =
         spin > 0.0 && std::isfinite(bounding_radius) ? spin * bounding_radius : 0.0;
-    const double falling = bodies.is_obstacle(i) ? 0.0 : 2.0 * h * gravity.norm();
-    return h * (bodies.velocity[i].norm() + turning + falling);
+    return h * (bodies.velocity[i].norm() + turning + 2.0 * gained);
 }
 
 /// What a gap adds to the normal velocity that the law sees: consecutive midpoints differ by h

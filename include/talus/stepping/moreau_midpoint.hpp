@@ -47,19 +47,19 @@ struct StepParams {
     double skin = 0.2;
 };
 
-/// The gap up to which contacts of body i count as closed, as far as it is up to that body [m]; two
-/// bodies have the smaller of theirs. It is the contact tolerance, if there is one. Otherwise it is
-/// 0.01 |gravity| h^2, as far as that is between 1e-5 and 1e-3 of the body's bounding radius: a
-/// tenth of it is what a solver at its tolerance of 1e-4 lets bodies at rest part in a step
+/// The gap up to which a contact counts as closed [m]: the contact tolerance, if there is one.
+/// Otherwise it is 0.01 of `fall`, as far as that is between 1e-5 and 1e-3 of `half_thickness`
+/// (System::half_thickness), that of the thinner body. `fall` is h |u_free - u_begin|, how far
+/// loads alone would take a body within the step, g h^2 for its weight: of two bodies the larger. A
+/// tenth of 0.01 of it is what a solver at its tolerance of 1e-4 lets bodies at rest part in a step
 /// (ResidualMeasure). With 0 such a contact would be lost in the next one, and with it friction and
-/// the moments that hold a wall upright. Rounding of "exactly" placed bodies is far below it.
-template <int Dim, class Law, class ShapeType>
-double closed_gap(const System<Dim, Law, ShapeType>& system, std::size_t i, double h,
-                  const StepParams& params) {
+/// the moments that hold a wall upright. Rounding of "exactly" placed bodies is far below it. Where
+/// loads take a body farther than a tenth of its half thickness within a step, the upper end does
+/// not leave that room: the step is too large for such bodies.
+inline double closed_gap(const StepParams& params, double half_thickness, double fall) {
     constexpr double of_fall = 0.01, least = 1e-5, most = 1e-3;
-    const double radius = system.bounding_radius()[i];
     return params.contact_tolerance.value_or(
-        std::clamp(of_fall * system.gravity.norm() * h * h, least * radius, most * radius));
+        std::clamp(of_fall * fall, least * half_thickness, most * half_thickness));
 }
 
 /// One step of [Moreau] section 2.3, equation (9), stage by stage; owns what the stages share.
@@ -128,7 +128,7 @@ class MoreauMidpoint {
     ImpulseCache<Dim> cache_, other_cache_;  // the other one: of the step under way, or before it
     KeptState<Dim> before_;
     bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
-    std::vector<double> closed_, reach_;  // by body
+    std::vector<double> fall_, reach_;    // by body
     std::vector<Twist<Dim>> motion_;      // over one step; empty where nothing is anticipated
     std::vector<Twist<Dim>> excess_;      // shape less surface, by body
     double last_h_ = 0.0, h_before_ = 0.0, time_before_ = 0.0;
@@ -155,12 +155,12 @@ TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const 
     data.correction_work = 0.0;
     move_to_midpoint(system, data);
     hooks_.at_midpoint(system, data);
+    evaluate_forces(system, params, data);
     detect(system, params, data);
     assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
     hold_moving_surfaces(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
     hooks_.matrices_known(system, data);
-    evaluate_forces(system, params, data);
     hooks_.forces_known(system, data);
     assemble_contacts(system, params, data);
     data.impulse.resize(data.contact_count());
@@ -170,7 +170,14 @@ TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const 
 }
 
 TALUS_OF_STEP::complete(SystemType& system, Data& data) {
-    other_cache_.store(data.contacts, data.problem.jacobian, data.impulse);
+    // Impulses that do not solve their problem and are out of all proportion to it are no start:
+    // the next solve would take its loads for what such impulses have left of zero. (Those of a jam
+    // are as large, and solve it.)
+    constexpr double out_of_proportion = 1e-7;
+    if (data.report.status == SolveStatus::converged || !(data.report.rounding > out_of_proportion))
+        other_cache_.store(data.contacts, data.problem.jacobian, data.impulse);
+    else
+        other_cache_.clear();
     hooks_.solved(system, data);
     data.end = data.free;
     apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
@@ -212,29 +219,31 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
 TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& data) {
     const std::size_t n = system.bodies.count();
     const bool anticipates = params.scheme == Scheme::gap_anticipating;
-    closed_.resize(n);
+    fall_.resize(n);
     reach_.resize(n);
+    const auto thickness = system.half_thickness();
+    for (std::size_t i = 0; i < n; ++i) {
+        fall_[i] = data.h * (data.free[i].linear - data.begin[i].linear).norm();
+        // No gap of a pair that counts as closed is larger than this one of one of its free bodies.
+        reach_[i] = system.bodies.is_obstacle(i) ? 0.0 : closed_gap(params, thickness[i], fall_[i]);
+    }
     // What is anticipated needs no more: it is held before it opens.
     const double touching = params.contact_tolerance.value_or(0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-        closed_[i] = closed_gap(system, i, data.h, params);
-        // Of a pair counts the smaller one, which is that of a free body, or no larger.
-        reach_[i] = anticipates ? 0.5 * touching : system.bodies.is_obstacle(i) ? 0.0 : closed_[i];
-    }
     motion_.clear();
     if (anticipates) {
         for (std::size_t i = 0; i < n; ++i) {
-            reach_[i] += anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
-                                                 system.gravity, data.h);
+            const double way = anticipation_reach<Dim>(
+                system.bodies, i, system.bounding_radius()[i], fall_[i] / data.h, data.h);
+            reach_[i] = std::max(reach_[i], 0.5 * touching + way);
             motion_.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }
         // Shapes whose surfaces move otherwise: the shape of a belt stands still.
         for (const auto& [body, motion] : system.obstacles) {
             if (!motion.surface_moves) continue;
             const auto i = static_cast<std::size_t>(body);
-            motion_[i] = motion.displacement(data.t_mid(), data.t_mid() + data.h);
+            motion_[i] = motion.displacement(data.t_begin, data.t_end());
             const double radius = system.bounding_radius()[i], turn = motion_[i].angular.norm();
-            reach_[i] = motion_[i].linear.norm() +
+            reach_[i] = 0.5 * touching + motion_[i].linear.norm() +
                         (turn > 0.0 && std::isfinite(radius) ? turn * radius : 0.0);
         }
     }
@@ -243,8 +252,9 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
                       motion_, touching, data.contacts);
     data.contacts.keep_if([&](std::size_t c) {
         const ContactKey& key = data.contacts.key[c];
-        return data.contacts.gap[c] <= std::min(closed_[static_cast<std::size_t>(key.a)],
-                                                closed_[static_cast<std::size_t>(key.b)]) ||
+        const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
+        return data.contacts.gap[c] <= closed_gap(params, std::min(thickness[a], thickness[b]),
+                                                  std::max(fall_[a], fall_[b])) ||
                (anticipates && !bounces<Dim>(system.law_of(key)));
     });
 }
