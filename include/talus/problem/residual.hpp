@@ -119,10 +119,9 @@ class ContactScales {
             result.velocity = std::max(result.velocity, error);
             const double largest = std::sqrt(island.largest);
             const double v = free_scale(island);
-            // Without any load impulses may only be self-stress, whatever a solve begins with.
-            const double noise = v > 0.0 ? island.noise : std::max(island.noise, lost * largest);
-            const bool jam = v <= noise;
-            const double scale = jam ? noise : v;
+            // Without any load there is no other scale than the impulses' own.
+            const bool jam = v > 0.0 && v <= island.noise;
+            const double scale = jam ? island.noise : v > 0.0 ? v : largest;
             const double rounded = rounding * (largest + fastest_);
             if (scale > 0.0) result.rounding = std::max(result.rounding, rounded / scale);
             const double counted = error - rounded;
@@ -194,7 +193,8 @@ class ContactScales {
 /// anywhere, has no scale of its own: V is a thousandth of that. Where V is no more than 4e-11 of
 /// the largest r_c / rho_c that a solve begins with, as in a wedge that stays jammed without loads,
 /// it is what rounding has left of zero, and V is those 4e-11 themselves: a jam must balance to its
-/// last digits.) What the rounding of the largest velocity r_c / rho_c of the island, and of the
+/// last digits. Where V is zero, nothing is loaded at all: it is the largest r_c / rho_c.) What
+/// the rounding of the largest velocity r_c / rho_c of the island, and of the
 /// largest of u_free anywhere, explains, 32 epsilon of them, is not counted as an error; but where
 /// V is less than 4e-11 of that velocity, too little of V is left in its digits, and zeta is at
 /// least 10: a body between obstacles that close on it would have impulses without end, beside
