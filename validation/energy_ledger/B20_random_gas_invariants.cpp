@@ -147,7 +147,7 @@ const Register b20(
             "several balls meet at once, since e is common to all contacts.",
      .source = "Conservation laws; energy by the identity of the midpoint rule.",
      .catches = {Fault::reaction_lost, Fault::short_arm, Fault::restitution_weight,
-                 Fault::end_point_drift}},
+                 Fault::end_point_drift, Fault::stale_candidates}},
     run<2>, run<3>, __FILE__);
 
 }  // namespace B20

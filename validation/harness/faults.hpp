@@ -32,6 +32,10 @@ enum class Fault {
     residual_ignored,
     forces_in_local_axes,
     mean_over_sectors_forgotten,
+    ghost_edge,
+    sliver_face,
+    worst_contact_ignored,
+    stale_candidates,
 };
 
 struct FaultText {
@@ -75,6 +79,14 @@ inline constexpr std::array fault_texts{
               "Measured contact forces left in contact axes"},
     FaultText{Fault::mean_over_sectors_forgotten, "mean_over_sectors_forgotten",
               "Fourier fit of a histogram without the width of its sectors"},
+    FaultText{Fault::ghost_edge, "ghost_edge",
+              "Contacts anticipated at the nearest points, also at sides that a body slides past"},
+    FaultText{Fault::sliver_face, "sliver_face",
+              "Contacts of two hulls drawn into a tenth of their common face"},
+    FaultText{Fault::worst_contact_ignored, "worst_contact_ignored",
+              "The solver looks at the residual of all contacts together, not at the worst"},
+    FaultText{Fault::stale_candidates, "stale_candidates",
+              "The broad phase keeps to the pairs that it found first"},
 };
 
 inline constexpr const FaultText& text_of(Fault fault) {

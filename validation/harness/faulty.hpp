@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/assembly/contact_detection.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
+#include <talus/collision/hierarchical_grid.hpp>
+#include <talus/geometry/shape_view.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
 #include <talus/stepping/step_hooks.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include "dense_problem.hpp"
 #include "faults.hpp"
 #include "setting.hpp"
 
-/// The faults, put in through the library's own doors: a law, a solver, hooks between the stages.
+/// The faults, put in through the library's own doors: a law, a solver, a broad phase, hooks
+/// between the stages.
 namespace validation {
 
 /// The law of the cases with a fault in it. The broken cones have no closed form: their contact is
@@ -98,15 +106,15 @@ class FaultySolver {
         faulty_.jacobian = problem.jacobian;
         faulty_.free_velocity = problem.free_velocity;
         faulty_.laws = faulty(problem.laws);
-        report_ = solver_.solve(faulty_, r);
-        return claimed();
+        return claimed([&]() -> const auto& { return solver_.solve(faulty_, r); });
     }
     const talus::SolveReport& solve(const DenseProblem<Dim>& problem, std::span<V<Dim>> r) {
         DenseDelassus<Dim> w(problem.w);
         faulty_.laws = faulty(problem.laws);
-        report_ = solver_.solve(w, std::span<const V<Dim>>(problem.free_velocity),
-                                std::span<const FaultyLaw<Dim>>(faulty_.laws), r);
-        return claimed();
+        return claimed([&]() -> const auto& {
+            return solver_.solve(w, std::span<const V<Dim>>(problem.free_velocity),
+                                 std::span<const FaultyLaw<Dim>>(faulty_.laws), r);
+        });
     }
 
   private:
@@ -115,11 +123,33 @@ class FaultySolver {
         for (const Law<Dim>& law : laws) result.push_back({law, fault_});
         return result;
     }
-    const talus::SolveReport& claimed() {
+    /// What the solver says of its answer, `solve()` being a solve from where the last one ended.
+    template <class Solve>
+    const talus::SolveReport& claimed(const Solve& solve) {
+        if (fault_ == Fault::worst_contact_ignored) return content_as_a_whole(solve);
+        report_ = solve();
         if (fault_ == Fault::residual_ignored) {
             report_.status = talus::SolveStatus::converged;
             report_.residual = 0.0;
         }
+        return report_;
+    }
+    /// Looks after 1, 2, 4... sweeps, as the solver itself does.
+    template <class Solve>
+    const talus::SolveReport& content_as_a_whole(const Solve& solve) {
+        talus::GaussSeidelParams& params = solver_.params;
+        const int most = params.max_sweeps;
+        params.max_sweeps = 1;
+        for (int left = most; left > 0; params.max_sweeps = std::min(2 * params.max_sweeps, left)) {
+            report_ = solve();
+            report_.residual = report_.whole;
+            if (report_.whole <= params.tolerance) report_.status = talus::SolveStatus::converged;
+            if (report_.status != talus::SolveStatus::iteration_limit ||
+                report_.iterations < params.max_sweeps)
+                break;
+            left -= report_.iterations;
+        }
+        params.max_sweeps = most;
         return report_;
     }
 
@@ -129,10 +159,31 @@ class FaultySolver {
     talus::SolveReport report_;
 };
 
+/// A broad phase that keeps to the pairs that it found first, or does not.
+template <int Dim, bool Stale>
+class FaultyPairs {
+  public:
+    template <std::predicate<talus::BodyIndex> IsObstacle>
+    void find_pairs(std::span<const talus::Aabb<Dim>> boxes, const IsObstacle& is_obstacle,
+                    std::vector<talus::CandidatePair>& pairs) {
+        if (!Stale || bodies_ != boxes.size()) grid_.find_pairs(boxes, is_obstacle, first_);
+        bodies_ = boxes.size();
+        pairs = first_;
+    }
+
+  private:
+    talus::HierarchicalGrid<Dim> grid_;
+    std::size_t bodies_ = 0;
+    std::vector<talus::CandidatePair> first_;
+};
+static_assert(talus::BroadPhase<FaultyPairs<2, true>, 2>);
+
 /// Faults between the stages of a step.
 template <int Dim>
 struct FaultyHooks : talus::NoHooks {
     Fault fault = Fault::none;
+    talus::StepParams step = {};
+    talus::ContactDetection<Dim, ShapeType<Dim>, talus::HierarchicalGrid<Dim>> detection = {};
 
     template <class System, class Data>
     void at_midpoint(System& system, Data& data) {
@@ -150,6 +201,10 @@ struct FaultyHooks : talus::NoHooks {
     }
     template <class System, class Data>
     void matrices_known(System& system, Data& data) {
+        if ((fault == Fault::ghost_edge || fault == Fault::control) &&
+            step.scheme == talus::Scheme::gap_anticipating)
+            anticipate_again(system, data);
+        if (fault == Fault::sliver_face) draw_together(system, data);
         auto& j = data.problem.jacobian;
         const std::size_t n = data.contact_count();
         if (fault == Fault::stale_inertia)
@@ -217,6 +272,62 @@ struct FaultyHooks : talus::NoHooks {
             bodies.position[i] += 0.5 * data.h * (v.linear - u.linear);
             bodies.rotation[i] = talus::Rotation<Dim>::exp(0.5 * data.h * (v.angular - u.angular)) *
                                  bodies.rotation[i];
+        }
+    }
+
+  private:
+    /// Finds the contacts of the gap-anticipating scheme again: those that the motion leads to, or
+    /// with the fault those at the nearest points.
+    template <class System, class Data>
+    void anticipate_again(System& system, Data& data) {
+        const talus::Bodies<Dim>& bodies = system.bodies;
+        const double tolerance = step.contact_tolerance.value_or(0.0);
+        std::vector<double> reach;
+        std::vector<talus::Twist<Dim>> motion;
+        for (std::size_t i = 0; i < bodies.count(); ++i) {
+            reach.push_back(0.5 * tolerance +
+                            talus::anticipation_reach<Dim>(bodies, i, system.bounding_radius()[i],
+                                                           system.gravity, data.h));
+            if (fault != Fault::ghost_edge)
+                motion.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
+        }
+        detection.detect(bodies, system.shapes(), system.shapes_version(), system.bounding_radius(),
+                         0.0, reach, motion, tolerance, data.contacts);
+        data.contacts.keep_if([&](std::size_t c) {
+            return data.contacts.gap[c] <= tolerance ||
+                   !talus::bounces<Dim>(system.law_of(data.contacts.key[c]));
+        });
+        talus::assemble_jacobian(data.contacts, bodies, data.problem.jacobian);
+    }
+
+    /// Draws the contacts of two hulls that have one normal together about their mean.
+    template <class System, class Data>
+    void draw_together(const System& system, Data& data) {
+        constexpr double share = 0.1;
+        auto& contacts = data.contacts;
+        const auto is_hull = [&](talus::BodyIndex i) {
+            return talus::view_of<Dim>(system.shapes()[static_cast<std::size_t>(i)]).kind() ==
+                   talus::ShapeKind::core;
+        };
+        for (std::size_t first = 0, last = 0; first < contacts.count(); first = last) {
+            const auto [a, b, feature] = contacts.key[first];
+            const V<Dim> normal = contacts.normal[first];
+            V<Dim> sum = V<Dim>::Zero();
+            bool flat = is_hull(a) && is_hull(b);
+            for (;
+                 last < contacts.count() && contacts.key[last].a == a && contacts.key[last].b == b;
+                 ++last) {
+                sum += contacts.point[last];
+                flat = flat && contacts.normal[last].dot(normal) > 1.0 - 1e-9;
+            }
+            const V<Dim> mean = sum / static_cast<double>(last - first);
+            for (std::size_t c = first; flat && c < last; ++c) {
+                V<Dim> shift = (share - 1.0) * (contacts.point[c] - mean);
+                shift -= normal.dot(shift) * normal;
+                contacts.point[c] += shift;
+                data.problem.jacobian.arm_a[c] += shift;
+                data.problem.jacobian.arm_b[c] += shift;
+            }
         }
     }
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "world.hpp"
 
+#include <type_traits>
+
 #include "faulty.hpp"
 #include "solvers.hpp"
 
@@ -30,18 +32,21 @@ talus::AnySolver<Dim, Law<Dim>> named_solver(const std::string& name,
 
 namespace {
 
-template <int Dim, class SolverType, class HooksType>
+template <int Dim, class SolverType, class HooksType, class Broad>
 struct WorldTypes : talus::SimulationTypes<Dim> {
     using Law = validation::Law<Dim>;
     using Shape = ShapeType<Dim>;
     using Solver = SolverType;
     using Hooks = HooksType;
+    using BroadPhase = Broad;
 };
 
-template <int Dim, class Solver, class Hooks>
+template <int Dim, class Solver, class Hooks = talus::NoHooks,
+          class Broad = talus::HierarchicalGrid<Dim>>
 class EngineOf : public Engine<Dim> {
   public:
-    EngineOf(System<Dim> system, const talus::SimulationParams& params, Solver solver, Hooks hooks)
+    EngineOf(System<Dim> system, const talus::SimulationParams& params, Solver solver,
+             Hooks hooks = {})
         : sim_(std::move(system), params, std::move(solver)) {
         sim_.hooks() = hooks;
     }
@@ -56,7 +61,7 @@ class EngineOf : public Engine<Dim> {
     }
 
   private:
-    talus::Simulation<Dim, WorldTypes<Dim, Solver, Hooks>> sim_;
+    talus::Simulation<Dim, WorldTypes<Dim, Solver, Hooks, Broad>> sim_;
 };
 
 template <int Dim>
@@ -69,20 +74,26 @@ std::unique_ptr<Engine<Dim>> make_engine(const WorldParams<Dim>& params,
     settings.step = params.step;
     if (fault == Fault::none && params.solver_name != usual_solver) {
         using Solver = talus::AnySolver<Dim, Law<Dim>>;
-        return std::make_unique<EngineOf<Dim, Solver, talus::NoHooks>>(
-            std::move(system), settings, named_solver<Dim>(params.solver_name, params.solver),
-            talus::NoHooks{});
+        return std::make_unique<EngineOf<Dim, Solver>>(
+            std::move(system), settings, named_solver<Dim>(params.solver_name, params.solver));
     }
     if (fault == Fault::none) {
         using Solver = talus::GaussSeidel<Dim, Law<Dim>>;
-        return std::make_unique<EngineOf<Dim, Solver, talus::NoHooks>>(
-            std::move(system), settings, Solver(params.solver), talus::NoHooks{});
+        return std::make_unique<EngineOf<Dim, Solver>>(std::move(system), settings,
+                                                       Solver(params.solver));
     }
     if (fault == Fault::loose_contact)
         settings.step.contact_tolerance = settings.step.contact_tolerance.value_or(0.0) + 2e-2;
-    return std::make_unique<EngineOf<Dim, FaultySolver<Dim>, FaultyHooks<Dim>>>(
-        std::move(system), settings, FaultySolver<Dim>(params.solver, fault),
-        FaultyHooks<Dim>{{}, fault});
+    const auto faulty = [&]<bool Stale>(std::bool_constant<Stale>) -> std::unique_ptr<Engine<Dim>> {
+        using Pairs = FaultyPairs<Dim, Stale>;
+        FaultyHooks<Dim> hooks;
+        hooks.fault = fault;
+        hooks.step = settings.step;
+        return std::make_unique<EngineOf<Dim, FaultySolver<Dim>, FaultyHooks<Dim>, Pairs>>(
+            std::move(system), settings, FaultySolver<Dim>(params.solver, fault), hooks);
+    };
+    if (fault == Fault::stale_candidates) return faulty(std::true_type{});
+    return faulty(std::false_type{});
 }
 
 /// Makes the forces be evaluated half a step too early.

@@ -55,7 +55,7 @@ const Register d05(
      .why = "One thousandth beside the threshold the verdict is still clear: 1e-9 g h against "
             "1e-4 g h.",
      .source = "Phear 1850; Hall 2005.",
-     .catches = {Fault::pulling_contact, Fault::reaction_lost}},
+     .catches = {Fault::pulling_contact, Fault::reaction_lost, Fault::sliver_face}},
     run<2>, run<3>, __FILE__);
 
 }  // namespace D05
