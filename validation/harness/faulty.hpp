@@ -285,9 +285,10 @@ struct FaultyHooks : talus::NoHooks {
         std::vector<double> reach;
         std::vector<talus::Twist<Dim>> motion;
         for (std::size_t i = 0; i < bodies.count(); ++i) {
+            const double gained = (data.free[i].linear - data.begin[i].linear).norm();
             reach.push_back(0.5 * tolerance +
                             talus::anticipation_reach<Dim>(bodies, i, system.bounding_radius()[i],
-                                                           system.gravity, data.h));
+                                                           gained, data.h));
             if (fault != Fault::ghost_edge)
                 motion.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }

@@ -2,7 +2,7 @@
 #include "cradle.hpp"
 
 namespace validation {
-namespace {
+namespace F08 {
 
 constexpr std::size_t n = 10;
 /// So wide that at first not even the boxes around the balls meet.
@@ -65,5 +65,5 @@ const Register f08(
      .catches = {Fault::stale_candidates, Fault::restitution_weight, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace F08
 }  // namespace validation

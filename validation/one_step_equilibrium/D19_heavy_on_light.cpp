@@ -2,7 +2,7 @@
 #include "statics.hpp"
 
 namespace validation {
-namespace {
+namespace D19 {
 
 /// Of the heavy ball to the light one.
 constexpr double mass_ratio = 1e4;
@@ -68,5 +68,5 @@ const Register d19(
      .catches = {Fault::worst_contact_ignored, Fault::residual_ignored}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace D19
 }  // namespace validation

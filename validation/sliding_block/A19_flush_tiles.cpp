@@ -2,7 +2,7 @@
 #include "sliding_block/block.hpp"
 
 namespace validation {
-namespace {
+namespace A19 {
 
 constexpr double speed = 2.0, tile = 0.1, half_height = 0.05, start = -0.413172;
 
@@ -84,5 +84,5 @@ const Register a19(
      .catches = {Fault::ghost_edge, Fault::friction_off, Fault::end_point_drift}},
     run<2>, run<3>, __FILE__);
 
-}  // namespace
+}  // namespace A19
 }  // namespace validation
