@@ -139,15 +139,12 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(bodies_squeezed_by_obstacles_have_no_solution, D, 
     talus::Automatic<dim, Law<dim>> solver;
     BOOST_TEST((solver.solve(p, r).status == talus::SolveStatus::no_solution));
     for (const auto& x : r) BOOST_TEST(x.allFinite());
-    // Impulses so large that no tolerance sees the rest: they come back as they were given.
+    // Impulses beside which the obstacles' motion is small are no jam: a jam balances.
     r.assign(2, 1e12 * talus::Vector<dim>::Unit(0));
     const auto& report = solver.solve(p, r);
     BOOST_TEST((report.status == talus::SolveStatus::no_solution));
-    BOOST_TEST((r[0] == 1e12 * talus::Vector<dim>::Unit(0)));
-    // A solve that begins with them takes them for a jam, whose scale they are; by themselves they
-    // are none.
-    BOOST_TEST(report.residual > 0.0);
-    BOOST_TEST(report.residual < 1e-10);
+    BOOST_TEST(report.residual > solver.params.tolerance);
+    r.assign(2, 1e12 * talus::Vector<dim>::Unit(0));
     BOOST_TEST(talus::residual(p, std::span<const talus::Vector<dim>>(r)).relative >= 1.0);
     // One obstacle that gives way as fast as the other comes: the ball moves with them.
     r.assign(2, talus::Vector<dim>::Zero());
