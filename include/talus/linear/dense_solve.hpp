@@ -32,8 +32,10 @@ TALUS_FUNCTION bool solve_dense(const Eigen::MatrixXd& a, const Eigen::VectorXd&
     Eigen::FullPivLU<Eigen::MatrixXd> lu(a);
     lu.setThreshold(rank);
     if (!lu.isInvertible()) {
-        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least(a);
+        // The threshold first: it decides which columns are reduced.
+        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least(a.rows(), a.cols());
         least.setThreshold(rank);
+        least.compute(a);
         x = least.solve(b);
         return false;
     }

@@ -203,7 +203,8 @@ class ContactScales {
 ///
 /// What it means for motion. A contact's overlap grows by no more than (10 tolerance + 2e-4) V h
 /// sqrt(1 + mu^2) in a step for want of accuracy, where the 2e-4 are what rounding may explain of
-/// V at the very most, beside impulses of 2.5e10 times V: at rest, where V = g h, by some 1e-3 g
+/// V beside impulses of 2.5e10 times V (`rounding` says how much it is; more only where something
+/// elsewhere is faster than that): at rest, where V = g h, by some 1e-3 g
 /// h^2 at a tolerance of 1e-4. A contact of an island that something fast has hit is judged in the
 /// scale of that: it may be left to fall freely for a step where its g h is a thousandth of the
 /// fastest violation.

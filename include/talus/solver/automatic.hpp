@@ -112,8 +112,11 @@ class Automatic {
         report_.rounding = now.rounding;
         report_.velocity_error = now.velocity;
         report_.worst_contact = now.worst_contact;
-        // An engine that went on from impulses of another one took them for a jam's.
-        if (report_.status == SolveStatus::converged && now.contact >= Residual::worse_than_none) {
+        // An engine that went on from impulses of another one took them for a jam's. (What is
+        // beyond the tolerance by rounding alone was below it as measured on the way.)
+        constexpr double slack = 1.0 + 1e-6;
+        if (report_.status == SolveStatus::converged &&
+            now.relative > slack * params.tolerance + Residual::share_of_contact * now.rounding) {
             report_.status = SolveStatus::stalled;
             report_.residual = now.relative;
         }

@@ -23,12 +23,14 @@ namespace talus {
 enum class Verdict {
     equilibrium,  ///< the forces found hold the bodies: a *possible* equilibrium, stable or not
     moving,       ///< something moves, faster than the error of the forces can explain
-    undecided,    ///< the forces are not accurate enough for either, see `reason`
+    undecided,    ///< the forces or the gaps are not accurate enough for either, see `reason`
 };
 
 /// Settings of the equilibrium test.
 struct EquilibriumParams {
-    double h = 1e-3;  ///< step size [s]; the verdict does not depend on it
+    /// Step size [s]; `equilibrium` and `moving` do not depend on it. Give that of a simulation for
+    /// what it has left.
+    double h = 1e-3;
     /// Largest end speed, relative to the speed that the loads alone would give in the step, that
     /// counts as rest, and largest residual of forces that count as found [-].
     double rest = 1e-9;
@@ -189,7 +191,8 @@ requires ContactSolver<Solver, Dim, Law> EquilibriumReport<Dim, Law> equilibrium
     report.verdict = Verdict::undecided;
     report.reason += ", but would not if gaps of up to " + detail::text_of(widest) +
                      " m were closed, which a simulation leaves between bodies at rest: give "
-                     "contact_tolerance to count them as closed, or 0 to count them as open";
+                     "contact_tolerance to count them as closed, or " +
+                     detail::text_of(tolerance) + " to count them as open";
     return report;
 }
 

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,8 +50,9 @@ struct StepParams {
 
 /// The gap up to which a contact counts as closed [m]: the contact tolerance, if there is one.
 /// Otherwise it is 0.01 of `fall`, as far as that is between 1e-5 and 1e-3 of `half_thickness`
-/// (System::half_thickness), that of the thinner body. `fall` is h |u_free - u_begin|, how far
-/// loads alone would take a body within the step, g h^2 for its weight: of two bodies the larger. A
+/// (System::half_thickness), that of the thinner free body. `fall` is h |u_free - u_begin|, how far
+/// loads alone would take a body's points within the step, g h^2 for its weight: of two bodies the
+/// larger. A
 /// tenth of 0.01 of it is what a solver at its tolerance of 1e-4 lets bodies at rest part in a step
 /// (ResidualMeasure). With 0 such a contact would be lost in the next one, and with it friction and
 /// the moments that hold a wall upright. Rounding of "exactly" placed bodies is far below it. Where
@@ -101,7 +103,8 @@ class MoreauMidpoint {
     /// what it starts from. Free bodies are left at q_mid.
     void pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
                       Data& data);
-    /// The second half, from the impulses that a solver found.
+    /// The second half, from the impulses that a solver found and what it says of them in
+    /// `data.report`: those of a failed solve may be too large to be remembered.
     void complete(SystemType& system, Data& data);
     /// Takes the last step, or what was done of it, back: bodies and remembered impulses are as
     /// before it, bit for bit. Once for each step.
@@ -221,11 +224,17 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
     const bool anticipates = params.scheme == Scheme::gap_anticipating;
     fall_.resize(n);
     reach_.resize(n);
-    const auto thickness = system.half_thickness();
+    const auto thickness = [&](std::size_t i) {
+        return system.bodies.is_obstacle(i) ? std::numeric_limits<double>::infinity()
+                                            : system.half_thickness()[i];
+    };
     for (std::size_t i = 0; i < n; ++i) {
-        fall_[i] = data.h * (data.free[i].linear - data.begin[i].linear).norm();
+        const double radius = system.bounding_radius()[i];
+        const double turn = (data.free[i].angular - data.begin[i].angular).norm();
+        fall_[i] = data.h * ((data.free[i].linear - data.begin[i].linear).norm() +
+                             (turn > 0.0 && std::isfinite(radius) ? turn * radius : 0.0));
         // No gap of a pair that counts as closed is larger than this one of one of its free bodies.
-        reach_[i] = system.bodies.is_obstacle(i) ? 0.0 : closed_gap(params, thickness[i], fall_[i]);
+        reach_[i] = system.bodies.is_obstacle(i) ? 0.0 : closed_gap(params, thickness(i), fall_[i]);
     }
     // What is anticipated needs no more: it is held before it opens.
     const double touching = params.contact_tolerance.value_or(0.0);
@@ -253,7 +262,7 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
     data.contacts.keep_if([&](std::size_t c) {
         const ContactKey& key = data.contacts.key[c];
         const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
-        return data.contacts.gap[c] <= closed_gap(params, std::min(thickness[a], thickness[b]),
+        return data.contacts.gap[c] <= closed_gap(params, std::min(thickness(a), thickness(b)),
                                                   std::max(fall_[a], fall_[b])) ||
                (anticipates && !bounces<Dim>(system.law_of(key)));
     });

@@ -8,13 +8,16 @@ namespace talus {
 /// check notices. Each is given the system (a System) and the step's data (a StepData). Derive from
 /// this and hide the ones you want; what is not hidden costs nothing.
 struct NoHooks {
-    /// Free bodies at q_mid with u_begin, obstacles at t_mid; `data.begin` filled. Before the gaps.
+    /// Free bodies at q_mid with u_begin, obstacles at t_mid; `data.begin` filled. Before forces
+    /// and gaps.
     template <class SystemType, class Data>
     void at_midpoint(SystemType&, Data&) {}
-    /// `data.contacts`, jacobian and inverse masses filled. Before the forces.
+    /// `data.contacts`, jacobian and inverse masses filled. What is changed here of bodies or loads
+    /// comes too late for the forces of this step.
     template <class SystemType, class Data>
     void matrices_known(SystemType&, Data&) {}
-    /// `data.free` filled. Before the contacts' velocities.
+    /// `data.applied` and `data.free` filled, and free to be changed. Before the contacts'
+    /// velocities.
     template <class SystemType, class Data>
     void forces_known(SystemType&, Data&) {}
     /// `data.problem` and the warm start in `data.impulse` are as the solver will see them.
