@@ -194,20 +194,19 @@ class ContactScales {
 /// the largest r_c / rho_c that a solve begins with, as in a wedge that stays jammed without loads,
 /// it is what rounding has left of zero, and V is those 4e-11 themselves: a jam must balance to its
 /// last digits. Where V is zero, nothing is loaded at all: it is the largest r_c / rho_c.) What
-/// the rounding of the largest velocity r_c / rho_c of the island, and of the
-/// largest of u_free anywhere, explains, 32 epsilon of them, is not counted as an error; but where
-/// V is less than 4e-11 of that velocity, too little of V is left in its digits, and zeta is at
-/// least 10: a body between obstacles that close on it would have impulses without end, beside
-/// which the violation is no more than a last digit. A tenth of zeta is asked for, since the worst
-/// of many contacts is some way above their mean: in piles at rest zeta is some 400 eta.
+/// the rounding of the largest velocity r_c / rho_c of the island, and of the largest of u_free
+/// anywhere, explains, 32 epsilon of them, is not counted as an error; but where V is less than
+/// 4e-11 of that velocity, too little of V is left in its digits, and zeta is at least 10: a body
+/// between obstacles that close on it would have impulses without end, beside which the violation
+/// is no more than a last digit. A tenth of zeta is asked for, since the worst of many contacts is
+/// some way above their mean: in piles at rest zeta is some 400 eta.
 ///
 /// What it means for motion. A contact's overlap grows by no more than (10 tolerance + 2e-4) V h
 /// sqrt(1 + mu^2) in a step for want of accuracy, where the 2e-4 are what rounding may explain of
 /// V beside impulses of 2.5e10 times V (`rounding` says how much it is; more only where something
-/// elsewhere is faster than that): at rest, where V = g h, by some 1e-3 g
-/// h^2 at a tolerance of 1e-4. A contact of an island that something fast has hit is judged in the
-/// scale of that: it may be left to fall freely for a step where its g h is a thousandth of the
-/// fastest violation.
+/// elsewhere is faster than that): at rest, where V = g h, by some 1e-3 g h^2 at a tolerance of
+/// 1e-4. A contact of an island that something fast has hit is judged in the scale of that: it may
+/// be left to fall freely for a step where its g h is a thousandth of the fastest violation.
 ///
 /// Conventions. 0/0 is 0. If the scale is 0 and the error is not (a law that attracts), eta and
 /// zeta are 1. A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Rows
