@@ -5,6 +5,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <numbers>
+#include <string>
 
 #include "common/dimensions.hpp"
 #include "common/random.hpp"
@@ -134,6 +136,61 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_twist_that_is_not_of_its_pose_is_refused, D, dim
         return talus::Twist<D::value>{V((t >= 0.0 ? 1.0 : 0.0) * V::Unit(0))};
     };
     talus::place(bodies, 0, Motion(ramp, step), 0.0, 1e-6);
+}
+
+/// Places an obstacle as the steps of 20 s do.
+template <int Dim>
+void place_in_steps(const talus::PrescribedMotion<Dim>& motion, double h) {
+    talus::Bodies<Dim> bodies;
+    bodies.add_obstacle({});
+    for (int k = 0; k < 20.0 / h; ++k) talus::place(bodies, 0, motion, (k + 0.5) * h, 1e-3 * h);
+}
+
+// Near a turning point the velocity changes by more than itself between two neighbouring times.
+BOOST_AUTO_TEST_CASE_TEMPLATE(motions_may_turn_back_at_any_time, D, dimensions) {
+    constexpr int Dim = D::value;
+    using V = talus::Vector<Dim>;
+    using Motion = talus::PrescribedMotion<Dim>;
+    constexpr int turns = Dim == 2 ? 1 : 3;
+    using Turn = talus::AngularVector<Dim>;
+    const auto rocks = [](double t) {
+        return talus::Pose<D::value>{
+            {}, talus::Rotation<D::value>::exp(0.1 * std::sin(3.0 * t) * Turn::Unit(turns - 1))};
+    };
+    for (const double h : {1e-2, 1e-3, 2e-4}) {
+        for (const double frequency : {0.37, 1.1, 2.7, 7.3}) {
+            const double w = 2.0 * std::numbers::pi * frequency;
+            const auto at = [w](double t) { return V(1e-3 / w * std::sin(w * t) * V::Unit(0)); };
+            const auto speed = [w](double t) { return V(1e-3 * std::cos(w * t) * V::Unit(0)); };
+            place_in_steps(Motion::of_pose([at](double t) {
+                               return talus::Pose<D::value>{at(t), {}};
+                           }),
+                           h);
+            place_in_steps(Motion::shifted({}, at, speed), h);
+        }
+        place_in_steps(Motion::of_pose(rocks), h);
+    }
+}
+
+// A triangle wave: of_pose differentiates over its corners.
+BOOST_AUTO_TEST_CASE_TEMPLATE(motions_known_by_their_poses_may_jump_in_speed, D, dimensions) {
+    constexpr int Dim = D::value;
+    using V = talus::Vector<Dim>;
+    const auto wave = [](double t) {
+        return talus::Pose<D::value>{V(std::abs(t - std::round(t)) * V::Unit(0)), {}};
+    };
+    talus::Bodies<Dim> bodies;
+    bodies.add_obstacle({});
+    const auto motion = talus::PrescribedMotion<Dim>::of_pose(wave);
+    for (const double h : {1e-2, 1e-3, 1e-4})
+        for (int k = -300; k <= 300; ++k) talus::place(bodies, 0, motion, 0.5 + k * 1e-7, 1e-3 * h);
+    // Too coarse for what it does, and said so.
+    const auto coarse = talus::PrescribedMotion<Dim>::of_pose(wave, 0.3);
+    BOOST_CHECK_EXCEPTION(talus::place(bodies, 0, coarse, 0.4, 1e-6), talus::input_error,
+                          [](const talus::input_error& e) {
+                              return std::string(e.what()).find("resolution of 0.3 s") !=
+                                     std::string::npos;
+                          });
 }
 
 BOOST_AUTO_TEST_SUITE_END()

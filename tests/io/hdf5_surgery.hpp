@@ -39,6 +39,24 @@ class Hdf5Surgery {
         make(name, length, H5T_NATIVE_DOUBLE);
         flush();
     }
+    /// A dataset of that length, in pieces of `chunk`, of which only the first is written.
+    void replace_by_first_chunk(const std::string& name, std::size_t length, std::size_t chunk,
+                                bool deflated) {
+        const Handle creation(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+        const hsize_t piece = chunk;
+        H5Pset_chunk(creation.id(), 1, &piece);
+        if (deflated) H5Pset_deflate(creation.id(), 9);
+        make(name, length, H5T_NATIVE_DOUBLE, creation.id());
+        const Handle set(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), &H5Dclose);
+        const Handle file_space(H5Dget_space(set.id()), &H5Sclose);
+        const hsize_t begin = 0, one = 1;
+        H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, &begin, nullptr, &one, nullptr);
+        const Handle memory(H5Screate_simple(1, &one, nullptr), &H5Sclose);
+        const double value = 0.5;
+        BOOST_REQUIRE(H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, memory.id(), file_space.id(),
+                               H5P_DEFAULT, &value) >= 0);
+        flush();
+    }
     void replace_by_variable_text(const std::string& name, const char* value) {
         const Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
         H5Tset_size(type.id(), H5T_VARIABLE);
@@ -59,7 +77,8 @@ class Hdf5Surgery {
     }
     void flush() { H5Fflush(file_.id(), H5F_SCOPE_GLOBAL); }
 
-    void make(const std::string& name, std::size_t length, hid_t type) {
+    void make(const std::string& name, std::size_t length, hid_t type,
+              hid_t creation = H5P_DEFAULT) {
         const talus::detail::QuietHdf5 quiet;
         H5Ldelete(file_.id(), name.c_str(), H5P_DEFAULT);
         const hsize_t extent = length;
@@ -67,7 +86,7 @@ class Hdf5Surgery {
         const Handle links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
         H5Pset_create_intermediate_group(links.id(), 1);
         const Handle set(H5Dcreate2(file_.id(), name.c_str(), type, space.id(), links.id(),
-                                    H5P_DEFAULT, H5P_DEFAULT),
+                                    creation, H5P_DEFAULT),
                          &H5Dclose);
         BOOST_REQUIRE(set.valid());
     }

@@ -2,13 +2,18 @@
 #include <talus/geometry/convex_polytope.hpp>
 #include <talus/io/mesh/read_obj.hpp>
 #include <talus/io/mesh/read_stl.hpp>
+#include <talus/io/scene_file.hpp>
 #include <talus/io/write_file.hpp>
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
+#include <string>
+#include <sys/stat.h>
 
 #include "common/hull_tester.hpp"
 #include "io/temporary_folder.hpp"
@@ -161,6 +166,39 @@ BOOST_AUTO_TEST_CASE(the_quads_and_counts_of_obj_are_read) {
     BOOST_TEST(std::abs(volume - 1.0) < 1e-14);
 }
 
+BOOST_AUTO_TEST_CASE(what_writers_of_obj_are_free_to_do_is_read) {
+    const Mesh plain = obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    const auto same = [&](const std::string& text) {
+        const Mesh mesh = obj(text);
+        BOOST_TEST((mesh.vertices == plain.vertices && mesh.triangles == plain.triangles), text);
+        return mesh;
+    };
+    same("v +0 0 0\nv +1.0 0 0\nv 1 1 0\nv 0 +1e+0 0\nf 1 2 3 4\n");
+    same("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\n3\\\n 4\n");
+    same("v 0 0 0# first\nv 1 0 0 # second\nv 1 1 0#\nv 0 1 0\nf 1 2 3 4# all\n# no more\n");
+    same("v 0 0 0\rv 1 0 0\rv 1 1 0\rv 0 1 0\rf 1 2 3 4\r");
+    same("v 0 0 1e-400\nv 1 0 -2E-9999\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    // Points that no face names are no part of the surface.
+    const Mesh more =
+        same("v 9 9 9\nv 0 0 0\nv 1 0 0\nv -5 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 5 6\nv 7 7 7\n");
+    BOOST_TEST(more.unused_count == 3u);
+    BOOST_TEST(plain.unused_count == 0u);
+    check(complaint(obj, "v 0 0 0\nv 1 0 0\nv 0 +-1 0\nf 1 2 3\n"), {"line 3", "'+-1'"});
+    check(complaint(obj, "v 0 0 0\nv 1 0 \\\nx\n"), {"line 3: vertex 2 z [m] is 'x'"});
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_file_is_refused_at_once) {
+    const TemporaryFolder folder("pipe");
+    const auto pipe = folder / "pipe";
+    BOOST_REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);  // opening it would wait for a writer
+    for (const auto& path : {pipe, folder / "", std::filesystem::path("/dev/zero")}) {
+        BOOST_CHECK_THROW(talus::read_stl(path), talus::input_error);
+        BOOST_CHECK_THROW(talus::read_obj(path), talus::input_error);
+        BOOST_CHECK_THROW(talus::read_scene<2>(path), talus::input_error);
+        BOOST_CHECK_THROW(talus::scene_dimension(path), talus::input_error);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(equal_corners_are_welded) {
     const Mesh two =
         obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv -0 1 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n"
@@ -206,6 +244,14 @@ BOOST_AUTO_TEST_CASE(wrong_stl_is_refused_by_line_or_byte) {
     check(said(binary({})), {"byte 80", "is 0", "at least 1"});
     check(said(std::string("\0", 1) + good.substr(1, good.size() - 2)),
           {"byte 80", "count of triangles is 1", "134 bytes", "133"});
+    // A header in words, as many programs write it.
+    for (const char* title : {"numpy-stl", "solid x"}) {
+        std::string padded = binary(one, title);
+        std::replace(padded.begin(), padded.begin() + 80, '\0', ' ');
+        BOOST_TEST((stl(padded).vertices == one.vertices));
+        check(said(padded.substr(0, padded.size() - 1)), {"byte 80", "134 bytes", "133"});
+        check(said(padded + '\0'), {"byte 80", "134 bytes", "135"});
+    }
     std::string nan = good;
     nan.replace(96, 4, "\xff\xff\xff\x7f");
     check(said(nan), {"rock.stl, byte 96: triangle 1: vertex 1 x [m] is ", "nan"});
@@ -222,7 +268,7 @@ BOOST_AUTO_TEST_CASE(wrong_obj_is_refused_by_line) {
         check(said(with(good, "f 1", std::string("f ") + corner)),
               {"line 4: face 1: corner 1", "'" + std::string(corner) + "'", "[1, 3]", "[-3, -1]"});
     check(said(with(good, "f 1 2 3", "f 1 2")), {"line 4: face 1: corner 3", "missing"});
-    check(said("f 1 2 3\n" + good), {"line 1", "corner 1", "[1, 0]"});
+    check(said("f 1 2 3\n" + good), {"line 1", "corner 1 is '1'", "after the vertices"});
     check(said(with(good, "f 1", "f \x1b[2J")), {"'\\x1b[2J'"});
 }
 

@@ -411,6 +411,11 @@ BOOST_AUTO_TEST_CASE(a_length_without_numbers_behind_it_costs_no_memory) {
         BOOST_REQUIRE(at != std::string::npos);
         talus::write_file(path, bytes.replace(at, 16, larger + larger));
     });
+    for (const bool deflated : {false, true})
+        damage.local("fclib_local/vectors/mu is cut off, but must be whole", [&](const auto& path) {
+            Hdf5Surgery(path).replace_by_first_chunk("fclib_local/vectors/mu", 50'000'000'000, 1000,
+                                                     deflated);
+        });
 }
 
 BOOST_AUTO_TEST_CASE(velocities_never_written_are_zero) {

@@ -562,6 +562,77 @@ BOOST_AUTO_TEST_CASE(a_free_top_keeps_its_energy_with_all_defaults) {
                boost::test_tools::tolerance(1e-4));
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(numbers_that_are_none_are_named, D, dimensions) {
+    constexpr int Dim = D::value;
+    const auto said = [](auto&& spoil) {
+        talus::Simulation<D::value> sim(law<D::value>(0.3), {.h = 1e-3});
+        sim.system().add(talus::Ball<D::value>(0.1), 1000.0, talus::Pose<D::value>{});
+        sim.system().add(talus::Ball<D::value>(0.1), 1000.0,
+                         talus::Pose<D::value>{V<D::value>::Ones(), {}});
+        spoil(sim.system());
+        try {
+            sim.step();
+        } catch (const talus::input_error& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    const double nan = std::nan("");
+    BOOST_TEST(said([](auto&) {}) == "");
+    BOOST_TEST(said([&](auto& s) { s.gravity[1] = nan; }) ==
+               "gravity[1] is nan, but must be finite");
+    BOOST_TEST(said([&](auto& s) { s.bodies.velocity[1][0] = nan; }) ==
+               "velocity of body 1[0] is nan, but must be finite");
+    BOOST_TEST(said([&](auto& s) {
+                   s.bodies.spin[1][Dim == 2 ? 0 : 2] = nan;
+               }).starts_with("velocity of body 1, its spin"));
+    BOOST_TEST(said([&](auto& s) {
+                   s.gravity[1] = -1.0;
+                   s.bodies.inverse_mass[1] = nan;
+               }).find("body 1") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_run_tells_that_bodies_may_have_passed_unseen, D, dimensions) {
+    constexpr int Dim = D::value;
+    V<Dim> half_sides = V<Dim>::Ones();
+    half_sides[0] = 0.005;
+    const auto shot = [&](double speed) {
+        talus::Simulation<Dim> sim(law<Dim>(0.0), {.h = 1e-3});
+        sim.system().add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), -2.0});
+        sim.system().add_obstacle(talus::Box<Dim>(half_sides));
+        sim.system().add(talus::Ball<Dim>(0.01), 1000.0,
+                         talus::Pose<Dim>{-3.0 * V<Dim>::Unit(0), {}},
+                         talus::Twist<Dim>{speed * V<Dim>::Unit(0)});
+        return std::tuple(sim.run(0.1), sim.system().bodies.position[2][0]);
+    };
+    const auto [fast, beyond] = shot(500.0);
+    BOOST_TEST(beyond > 1.0);  // it did
+    BOOST_TEST(fast.travel.value == 0.5 / 0.03, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(to_string(fast).find("went too far in one step") != std::string::npos);
+    const auto [slow, before] = shot(25.0);
+    BOOST_TEST(slow.travel.value < 1.0);
+    BOOST_TEST(to_string(slow).find("went too far") == std::string::npos);
+}
+
+template <int Dim>
+struct AutomaticTypes : talus::SimulationTypes<Dim> {
+    using Solver = talus::Automatic<Dim, talus::DefaultLaw<Dim>>;
+};
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_a_million_times_as_heavy_rests_on_a_light_one, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim, AutomaticTypes<Dim>> sim(law<Dim>(0.5), {.h = 1e-3});
+    auto& system = sim.system();
+    system.gravity = -9.81 * up<Dim>();
+    system.add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
+    const talus::Box<Dim> box(0.1 * V<Dim>::Ones());
+    system.add(box, 1.0, talus::Pose<Dim>{0.1 * up<Dim>(), {}});
+    system.add(box, 1e6, talus::Pose<Dim>{0.3 * up<Dim>(), {}});
+    const talus::RunSummary run = sim.run(0.1);
+    BOOST_TEST(run.certified(), to_string(run));
+    BOOST_TEST((system.bodies.position[2] - 0.3 * up<Dim>()).norm() < 1e-8);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(empty_braces_are_zero, D, dimensions) {
     constexpr int Dim = D::value;
     // On memory that holds something else.

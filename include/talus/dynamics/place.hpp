@@ -20,24 +20,48 @@ namespace detail {
         numbered("prescribed motion of body", body, " at time " + text_of(t) + std::string(what)));
 }
 
-/// Whether the twist of a motion at time t belongs to its pose, by differences over `reach` [s]: of
-/// one side at least, as a motion may change its velocity at t.
+/// How far `x` is from the segment between two points.
+template <class Vec>
+double distance_from_segment(const Vec& x, const Vec& from, const Vec& to) {
+    const Vec along = to - from, way = x - from;
+    const double square = along.squaredNorm();
+    const double part = square > 0.0 ? std::clamp(along.dot(way) / square, 0.0, 1.0) : 0.0;
+    return (way - part * along).norm();
+}
+
+/// Whether the twist of a motion at time t is, to a hundredth, between the differences of its pose
+/// over `reach` [s] before and after: equal to both where the velocity is smooth, to one of them
+/// where it jumps, and between them where it changes its sign.
+template <int Dim>
+bool is_between_differences(const PrescribedMotion<Dim>& motion, const Pose<Dim>& pose,
+                            const Twist<Dim>& twist, double t, double reach) {
+    const auto rate = [&](double side) {
+        const Pose<Dim> other = motion.pose(t + side);
+        return Twist<Dim>{(other.position - pose.position) / side,
+                          (other.rotation * pose.rotation.inverse()).log() / side};
+    };
+    const Twist<Dim> before = rate(-reach), after = rate(reach);
+    const double rounding =
+        16.0 * std::numeric_limits<double>::epsilon() * (1.0 + pose.position.norm()) / reach;
+    const auto agrees = [&](const auto& x, const auto& from, const auto& to) {
+        // Differences of fourth order (of_pose) overshoot a jump by a sixth of what is seen of it.
+        const double room = 0.01 * std::max({from.norm(), to.norm(), x.norm()}) +
+                            (motion.resolution > 0.0 ? 0.2 * (to - from).norm() : 0.0);
+        return distance_from_segment(x, from, to) <= room + rounding;
+    };
+    return agrees(twist.linear, before.linear, after.linear) &&
+           agrees(twist.angular, before.angular, after.angular);
+}
+
+/// Whether the twist of a motion at time t belongs to its pose. A twist made of differences is also
+/// held to differences as wide as its own, if a step of 1000 `reach` is not shorter.
 template <int Dim>
 bool twist_belongs(const PrescribedMotion<Dim>& motion, const Pose<Dim>& pose,
                    const Twist<Dim>& twist, double t, double reach) {
-    constexpr double share = 0.01;  // of the faster one
-    const auto agrees = [&](double side) {
-        const Pose<Dim> other = motion.pose(t + side);
-        const Vector<Dim> linear = (other.position - pose.position) / side;
-        const AngularVector<Dim> angular = (other.rotation * pose.rotation.inverse()).log() / side;
-        const double rounding =
-            16.0 * std::numeric_limits<double>::epsilon() * (1.0 + pose.position.norm()) / reach;
-        return (linear - twist.linear).norm() <=
-                   share * std::max(linear.norm(), twist.linear.norm()) + rounding &&
-               (angular - twist.angular).norm() <=
-                   share * std::max(angular.norm(), twist.angular.norm()) + rounding;
-    };
-    return agrees(reach) || agrees(-reach);
+    if (is_between_differences(motion, pose, twist, t, reach)) return true;
+    const double wide = 2.0 * motion.resolution;
+    return wide > reach && wide <= 1000.0 * reach &&
+           is_between_differences(motion, pose, twist, t, wide);
 }
 
 }  // namespace detail
@@ -57,8 +81,12 @@ void place(Bodies<Dim>& bodies, std::size_t i, const PrescribedMotion<Dim>& moti
         !detail::twist_belongs(motion, pose, twist, t, reach))
         detail::reject_motion(
             i, t,
-            " has a twist that is not that of its pose, but must be: give the pose "
-            "alone (of_pose), or say that the surface moves (belt, with_surface)");
+            motion.resolution > 0.0
+                ? " changes too fast for its resolution of " + detail::text_of(motion.resolution) +
+                      " s, but must not: give of_pose a smaller one, or the twist"
+                : std::string(" has a twist that is not that of its pose, but must be: give the "
+                              "pose alone (of_pose), or say that the surface moves (belt, "
+                              "with_surface)"));
     bodies.position[i] = pose.position;
     bodies.rotation[i] = pose.rotation;
     bodies.velocity[i] = twist.linear;

@@ -27,6 +27,7 @@ struct PrescribedMotion {
     std::function<Pose<Dim>(double)> pose;    ///< of time [s]
     std::function<Twist<Dim>(double)> twist;  ///< world axes, of time [s]
     bool surface_moves = false;               ///< the twist is not that of the shape
+    double resolution = 0.0;  ///< [s] of the differences that the twist is made of; 0: of none
 
     /// Any motion.
     PrescribedMotion(std::function<Pose<Dim>(double)> pose_,
@@ -98,7 +99,9 @@ struct PrescribedMotion {
             return Twist<Dim>{(4.0 * fine.linear - coarse.linear) / 3.0,
                               (4.0 * fine.angular - coarse.angular) / 3.0};
         };
-        return {std::move(pose), std::move(twist)};
+        PrescribedMotion result(std::move(pose), std::move(twist));
+        result.resolution = resolution;
+        return result;
     }
 
     /// Is shifted from `start` by displacements given in a table [m], cubic between the times [s]

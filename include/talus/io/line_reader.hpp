@@ -8,9 +8,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <type_traits>
 #include <vector>
 
 namespace talus {
@@ -22,11 +27,37 @@ inline std::string shown(std::string_view word, std::size_t longest = 80) {
     return printable(word, longest);
 }
 
+/// Opens a file that must be `kind`. Looks before: opening a pipe would wait for who writes it.
+inline std::ifstream open_file(const std::filesystem::path& path, std::string_view kind) {
+    std::error_code error;
+    std::ifstream file;
+    if (std::filesystem::is_regular_file(path, error)) file.open(path, std::ios::binary);
+    if (!file.is_open())
+        throw input_error(shown(path.string(), 4096) + ": the file cannot be read, but must be " +
+                          std::string(kind));
+    return file;
+}
+
+/// The number that a word of a file is, as a whole: what std::from_chars reads, which no locale
+/// changes, also after a plus sign. Numbers too near to zero to be told from it are zero.
+template <class Number>
+std::optional<Number> parsed_number(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size()) return std::nullopt;
+    if (error == std::errc{}) return value;
+    const bool tiny = std::is_floating_point_v<Number> &&
+                      (text.find("e-") != text.npos || text.find("E-") != text.npos);
+    if (error == std::errc::result_out_of_range && tiny) return Number{};
+    return std::nullopt;
+}
+
 }  // namespace detail
 
 /// Reads a text of words line by line and knows where it is: every complaint is one sentence naming
-/// the file, the line, the item, its value and the accepted range. A byte order mark of UTF-8 is
-/// passed over, others are refused.
+/// the file, the line, the item, its value and the accepted range. Lines end as on any system. A
+/// byte order mark of UTF-8 is passed over, others are refused.
 class LineReader {
   public:
     LineReader(std::istream& text, const std::string& file)
@@ -46,8 +77,29 @@ class LineReader {
     }
     /// Words of the line that are not yet used.
     std::size_t words_left() const { return words_.size() - used_; }
-    /// Whether the next word begins with #.
-    bool starts_comment() const { return words_left() > 0 && words_[used_].starts_with('#'); }
+    /// Forgets what follows a # in the line.
+    void drop_comment() {
+        for (std::size_t k = used_; k < words_.size(); ++k) {
+            const std::size_t mark = words_[k].find('#');
+            if (mark == std::string::npos) continue;
+            words_[k].resize(mark);
+            words_.resize(mark > 0 ? k + 1 : k);
+        }
+    }
+    /// Appends the next line as long as this one ends with a backslash.
+    void join_continued_lines() {
+        while (!words_.empty() && words_.back().ends_with('\\')) {
+            words_.back().pop_back();
+            if (words_.back().empty()) words_.pop_back();
+            ++line_;
+            std::vector<std::string> words = std::move(words_);
+            const std::size_t used = used_;
+            read();
+            words.insert(words.end(), words_.begin(), words_.end());
+            words_ = std::move(words);
+            used_ = used;
+        }
+    }
 
     /// Demands that nothing but white space follows.
     void expect_end_of_text() {
@@ -106,15 +158,25 @@ class LineReader {
     template <class Number>
     Number parsed(std::string_view item, Number low, Number high, std::string_view kind) {
         const std::string& text = word(item);
-        Number value{};
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool whole = error == std::errc{} && end == text.data() + text.size();
+        const std::optional<Number> value = detail::parsed_number<Number>(text);
         // A NaN fails the comparison, and so is refused like anything else that is out of range.
-        if (!whole || !(value >= low && value <= high))
+        if (!value || !(*value >= low && *value <= high))
             fail(item, "is '" + detail::shown(text) + "', but must be " + std::string(kind) +
                            " in [" + detail::text_of(static_cast<double>(low)) + ", " +
                            detail::text_of(static_cast<double>(high)) + "]");
-        return value;
+        return *value;
+    }
+
+    /// The next line up to \n, \r or both; false if there is none.
+    bool get_line(std::string& line) {
+        line.clear();
+        std::streambuf& text = *text_.rdbuf();
+        int c = text.sbumpc();
+        if (c == std::char_traits<char>::eof()) return false;
+        for (; c != std::char_traits<char>::eof() && c != '\n' && c != '\r'; c = text.sbumpc())
+            line.push_back(static_cast<char>(c));
+        if (c == '\r' && text.sgetc() == '\n') text.sbumpc();
+        return true;
     }
 
     void pass_byte_order_mark(std::string& line) const {
@@ -129,7 +191,7 @@ class LineReader {
         std::string line;
         words_.clear();
         used_ = 0;
-        if (!std::getline(text_, line)) return false;
+        if (!get_line(line)) return false;
         if (line_ == 1) pass_byte_order_mark(line);
         constexpr std::string_view space = " \t\r\v\f";
         for (std::size_t at = line.find_first_not_of(space); at != std::string::npos;) {

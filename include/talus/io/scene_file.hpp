@@ -148,17 +148,13 @@ Scene<Dim> parse_scene(std::istream& text, const std::string& file) {
 /// Reads a scene file; see parse_scene.
 template <int Dim>
 Scene<Dim> read_scene(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    if (!file || !std::filesystem::is_regular_file(path))
-        throw input_error(path.string() + ": the file cannot be read, but must be a scene file");
+    std::ifstream file = detail::open_file(path, "a scene file");
     return parse_scene<Dim>(file, path.string());
 }
 
 /// The dimension a scene file speaks of, to choose between read_scene<2> and read_scene<3>.
 inline int scene_dimension(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    if (!file || !std::filesystem::is_regular_file(path))
-        throw input_error(path.string() + ": the file cannot be read, but must be a scene file");
+    std::ifstream file = detail::open_file(path, "a scene file");
     LineReader in(file, path.string());
     return detail::read_header(in).dim;
 }

@@ -2,6 +2,11 @@
 #pragma once
 
 #include <talus/core/cross.hpp>
+#include <talus/core/input.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
 
 namespace talus {
 
@@ -17,6 +22,15 @@ struct Twist {
     /// Velocity of the body's point at `arm` from the centre [m/s].
     Vector<Dim> at(const Vector<Dim>& arm) const { return linear + cross<Dim>(angular, arm); }
 };
+
+/// Throws input_error naming `item` and its number k, unless the twist is finite.
+template <int Dim>
+void require_finite_twist(std::string_view item, std::size_t k, const Twist<Dim>& v) {
+    if (v.linear.allFinite() && v.angular.allFinite()) return;
+    const std::string name = detail::numbered(item, k);
+    require_finite(name, v.linear);
+    require_finite(name + ", its spin", v.angular);
+}
 
 /// Dual of a twist: force through the centre and moment about it, in world axes. The same type
 /// holds an impulse [N s] and its moment [N m s] where the name says `wrench_impulse`.

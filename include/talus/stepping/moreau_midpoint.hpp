@@ -212,10 +212,14 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
     Bodies<Dim>& bodies = system.bodies;
     const std::size_t n = bodies.count();
     constexpr double part_of_step = 1e-3;  // over which the obstacles' motion is checked
+    require_finite("gravity", system.gravity);
     system.place_obstacles(data.t_mid(), part_of_step * data.h);
     drift(bodies, 0.5 * data.h);
     data.begin.resize(n);
-    for (std::size_t i = 0; i < n; ++i) data.begin[i] = bodies.twist(i);
+    for (std::size_t i = 0; i < n; ++i) {
+        data.begin[i] = bodies.twist(i);
+        require_finite_twist("velocity of body", i, data.begin[i]);
+    }
 }
 
 TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& data) {
@@ -301,6 +305,7 @@ TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Dat
         data.free[i] =
             free_velocity<Dim>(bodies, i, data.h, system.gravity,
                                data.applied.empty() ? Wrench<Dim>{} : data.applied[i], change);
+        require_finite_twist("free velocity (of forces and inertia) of body", i, data.free[i]);
     }
 }
 

@@ -10,7 +10,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
+#include <utility>
 
 namespace talus {
 
@@ -35,12 +37,18 @@ struct RunSummary {
     double drift = 0.0;
     /// Deepest overlap as a fraction of the bounding radius of the smaller body [-].
     Worst overlap;
+    /// How far two bodies went in one step, of their thicknesses together [-]. Contacts are looked
+    /// for once a step: beyond 1 the two that went furthest could have passed through each other
+    /// unseen, had they met. Only the gap-anticipating scheme sees what is in the way, and not for
+    /// contacts with restitution.
+    Worst travel;
     bool stopped = false;  ///< by the observer
 
-    /// Every step converged, and no body was entered by more than a tenth of its radius.
+    /// Every step converged, and no body was entered by more than a tenth of its radius. Of
+    /// contacts that were seen: look at `travel` where bodies are thin or fast.
     bool certified() const { return missed == 0 && overlap.value <= 0.1; }
 
-    /// Notes a step. O(contacts).
+    /// Notes a step. O(bodies + contacts).
     template <int Dim, class Law, class ShapeType>
     void record(const System<Dim, Law, ShapeType>& system, const StepData<Dim, Law>& data) {
         ++steps;
@@ -50,6 +58,7 @@ struct RunSummary {
         note(contact_error, data.report.contact_error, data, c);
         note(velocity_error, data.report.velocity_error, data, c);
         drift += data.h * data.report.velocity_error;
+        note_travel(system, data);
         const auto radius = system.bounding_radius();
         for (std::size_t k = 0; k < data.contact_count(); ++k) {
             if (data.contacts.gap[k] >= 0.0) continue;
@@ -61,6 +70,33 @@ struct RunSummary {
     }
 
   private:
+    template <class System, class Data>
+    void note_travel(const System& system, const Data& data) {
+        // Of all pairs, that of the two bodies with the most way beyond their own thickness has the
+        // most together; what has no bounds has no other side.
+        struct Way {
+            double beyond = -std::numeric_limits<double>::infinity(), way = 0.0, thickness = 0.0;
+            std::size_t body = 0;
+        } first, second;
+        for (std::size_t i = 0; i < system.bodies.count(); ++i) {
+            const double radius = system.bounding_radius()[i];
+            const double thickness = 2.0 * system.half_thickness()[i];
+            if (!std::isfinite(radius) || !std::isfinite(thickness)) continue;
+            const auto twist = system.bodies.twist(i);
+            const double way = data.h * (twist.linear.norm() + twist.angular.norm() * radius);
+            const Way one{way - thickness, way, thickness, i};
+            if (one.beyond > first.beyond)
+                second = std::exchange(first, one);
+            else if (one.beyond > second.beyond)
+                second = one;
+        }
+        const double thickness = first.thickness + second.thickness;
+        if (!std::isfinite(second.beyond) || !(thickness > 0.0)) return;
+        const double share = (first.way + second.way) / thickness;
+        if (share > travel.value)
+            travel = {share, data.t_end(), static_cast<BodyIndex>(first.body),
+                      static_cast<BodyIndex>(second.body)};
+    }
     template <class Data>
     static void note(Worst& worst, double value, const Data& data, std::size_t contact) {
         if (!(value > worst.value) && !std::isnan(value)) return;
@@ -90,6 +126,9 @@ inline std::string to_string(const RunSummary& run) {
         text += "; errors of velocity add up to " + detail::text_of(run.drift) + " m";
     if (run.overlap.value > 0.0)
         text += "; deepest overlap, of the smaller radius, " + at(run.overlap);
+    if (run.travel.value > 1.0)
+        text += "; went too far in one step to be sure to meet, of their thicknesses, " +
+                at(run.travel);
     return text;
 }
 

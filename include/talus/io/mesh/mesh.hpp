@@ -3,6 +3,7 @@
 
 #include <talus/core/input.hpp>
 #include <talus/core/types.hpp>
+#include <talus/io/line_reader.hpp>
 
 #include <array>
 #include <cstdint>
@@ -21,9 +22,10 @@ namespace talus {
 struct Mesh {
     using Triangle = std::array<std::uint32_t, 3>;
 
-    std::vector<Vector<3>> vertices;   ///< all different [m]
+    std::vector<Vector<3>> vertices;   ///< all different, each a corner of some face [m]
     std::vector<Triangle> triangles;   ///< three different vertices each
     std::size_t degenerate_count = 0;  ///< triangles left out since two of their corners were equal
+    std::size_t unused_count = 0;      ///< vertices left out since no face names them
 };
 
 namespace detail {
@@ -41,12 +43,30 @@ class MeshBuilder {
         return at->second;
     }
     void triangle(const Mesh::Triangle& t) {
+        used_.resize(mesh_.vertices.size(), false);
+        for (const std::uint32_t v : t) used_[v] = true;
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
             ++mesh_.degenerate_count;
         else
             mesh_.triangles.push_back(t);
     }
-    Mesh take() { return std::move(mesh_); }
+    /// What was gathered, without the vertices that no triangle names: points, curves and other
+    /// leftovers of modellers, which would be corners of a hull.
+    Mesh take() {
+        used_.resize(mesh_.vertices.size(), false);
+        std::vector<std::uint32_t> number(used_.size());
+        std::uint32_t kept = 0;
+        for (std::size_t v = 0; v < used_.size(); ++v) {
+            if (!used_[v]) continue;
+            mesh_.vertices[kept] = mesh_.vertices[v];
+            number[v] = kept++;
+        }
+        mesh_.unused_count = used_.size() - kept;
+        mesh_.vertices.resize(kept);
+        for (Mesh::Triangle& t : mesh_.triangles)
+            for (std::uint32_t& v : t) v = number[v];
+        return std::move(mesh_);
+    }
 
   private:
     struct Hash {
@@ -61,14 +81,13 @@ class MeshBuilder {
         }
     };
     Mesh mesh_;
+    std::vector<bool> used_;  // by vertex
     std::unordered_map<Vector<3>, std::uint32_t, Hash> number_;
 };
 
 /// All bytes of a file, which must be one that can be read.
 inline std::string file_content(const std::filesystem::path& path, const std::string& kind) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || !std::filesystem::is_regular_file(path))
-        throw input_error(path.string() + ": the file cannot be read, but must be " + kind);
+    std::ifstream file = open_file(path, kind);
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 

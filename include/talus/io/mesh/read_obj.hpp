@@ -21,6 +21,8 @@ inline std::uint32_t obj_corner(LineReader& in, const std::string& item,
     long index = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + slash, index);
     const bool whole = error == std::errc{} && end == word.data() + slash;
+    if (count == 0)
+        in.fail(item, "is '" + shown(word) + "', but must come after the vertices that it names");
     if (!whole || index == 0 || index > count || index < -count)
         in.fail(item, "is '" + shown(word) + "', but must begin with a number of a vertex in [1, " +
                           std::to_string(count) + "] or [-" + std::to_string(count) + ", -1]");
@@ -30,16 +32,20 @@ inline std::uint32_t obj_corner(LineReader& in, const std::string& item,
 }  // namespace detail
 
 /// Reads a mesh from the text of an OBJ file: the statements v and f; a face of more than three
-/// corners becomes a fan of triangles. Others (normals, textures, groups, materials, lines) are
-/// passed over. `file` is the name that complaints begin with. Throws input_error, one sentence
-/// with the line, when one of the two is not as it should be, or there is no face.
+/// corners becomes a fan of triangles; lines may go on after a backslash. Others (normals,
+/// textures, groups, materials, lines) are passed over. `file` is the name that complaints begin
+/// with. Throws input_error, one sentence with the line, when one of the two is not as it should
+/// be, or there is no face.
 inline Mesh parse_obj(std::istream& text, const std::string& file) {
     LineReader in(text, file);
     detail::MeshBuilder mesh;
     std::vector<std::uint32_t> numbers;  // in the welded mesh
     std::size_t face_count = 0;
     while (in.next_words()) {
+        in.join_continued_lines();
+        if (in.words_left() == 0) continue;
         const std::string key = in.word("a key");
+        if (key == "v" || key == "f") in.drop_comment();
         if (key == "v") {
             const std::string name = "vertex " + std::to_string(numbers.size() + 1);
             Vector<3> x;
@@ -51,11 +57,9 @@ inline Mesh parse_obj(std::istream& text, const std::string& file) {
         } else if (key == "f") {
             const std::string name = "face " + std::to_string(++face_count) + ": corner ";
             std::vector<std::uint32_t> loop;
-            while (loop.size() < 3 || in.words_left() > 0) {
-                if (loop.size() >= 3 && in.starts_comment()) break;
+            while (loop.size() < 3 || in.words_left() > 0)
                 loop.push_back(
                     detail::obj_corner(in, name + std::to_string(loop.size() + 1), numbers));
-            }
             for (std::size_t k = 1; k + 1 < loop.size(); ++k)
                 mesh.triangle({loop[0], loop[k], loop[k + 1]});
         }

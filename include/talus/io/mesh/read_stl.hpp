@@ -136,8 +136,9 @@ inline Mesh parse_stl(const std::string& bytes, const std::string& file) {
                               ", byte 80: the count of triangles is 0, but must be at least 1");
         return detail::parse_binary_stl(bytes, file);
     }
-    // A text may begin with white space or a byte order mark.
-    const std::string_view start = std::string_view(bytes).substr(0, 80);
+    // A text may begin with white space or a byte order mark. The header of a binary file may be
+    // text, its count and coordinates are not.
+    const std::string_view start = std::string_view(bytes).substr(0, 256);
     const bool is_text = std::ranges::all_of(start, [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return byte >= 0x20 || (byte >= '\t' && byte <= '\r');
