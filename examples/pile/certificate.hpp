@@ -38,7 +38,7 @@ inline std::string text_of(const Figures& f) {
     line("                       %.1e m in all, about the most that overlaps grew for it", f.drift);
     line("  overlap              mean %.3f %% of the mean radius at the end",
          100 * f.mean_penetration() / f.mean_radius);
-    line("                       deepest %.2f %% of the smaller radius%s", 100 * f.overlap.value,
+    line("                       deepest %.2f %% of half the thinner one%s", 100 * f.overlap.value,
          place_of(f.overlap).c_str());
     line("  floor force / weight %.6f over the last tenth (%.6f by the momentum of the grains)",
          f.reaction_over_weight(), f.reaction_over_weight_due());
@@ -88,7 +88,7 @@ inline nlohmann::json json_of(const Figures& f) {
     j["worst_residual"] = f.residual.value;
     j["worst"] = {{"residual", json_of(f.residual)},
                   {"velocity_error_m_per_s", json_of(f.velocity_error)},
-                  {"overlap_over_smaller_radius", json_of(f.overlap)}};
+                  {"overlap_over_half_thickness", json_of(f.overlap)}};
     j["drift_m"] = f.drift;
     j["mean_radius_m"] = f.mean_radius;
     j["mean_penetration_m"] = f.mean_penetration();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/stepping/run_summary.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,9 +19,9 @@ struct Possible {
     /// Energy that friction or impacts may give, over what went through [-]. Contacts that open or
     /// stick within a step give as much as h g does, at most; a wrong answer gives all of it.
     double gain = 1e-3;
-    /// Of the smaller body's radius [-]: more, and it is another pile than the one that was asked
-    /// for.
-    double overlap = 0.1;
+    /// Of half the thickness of the thinner body [-]: more, and it is another pile than the one
+    /// that was asked for.
+    double overlap = talus::RunSummary::deepest_overlap;
     /// Between the force of the floor and what the momentum of the grains asks for, over the larger
     /// of weight and force [-]: rounding.
     double floor = 1e-6;
@@ -46,7 +48,8 @@ inline std::vector<std::string> impossible_in(const Figures& f, const Possible& 
         say("Impacts gave %.3g J, but they can only take energy.", f.given.impacts);
     const auto pair = f.overlap.one + " and " + f.overlap.another;
     if (!(f.overlap.value <= possible.overlap))
-        say("In step %lld %s overlapped by %.3g %% of the smaller one's radius, but solids keep "
+        say("In step %lld %s overlapped by %.3g %% of the thinner one's half thickness, but solids "
+            "keep "
             "out of each other.",
             static_cast<long long>(f.overlap.step), pair.c_str(), 100 * f.overlap.value);
     double largest_force = 1.0;

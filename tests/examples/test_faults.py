@@ -48,7 +48,7 @@ class Faults(unittest.TestCase):
             said = f"{scene}: {run.returncode}, {run.stdout[-2000:]}{run.stderr}"
             self.assertIn(run.returncode, (CERTIFIED, NOT_CERTIFIED), said)
             if run.returncode == CERTIFIED:
-                deepest = figures["worst"]["overlap_over_smaller_radius"]["value"]
+                deepest = figures["worst"]["overlap_over_half_thickness"]["value"]
                 self.assertLessEqual(deepest, 0.1, said)
                 self.assertEqual(figures["steps_missed"], 0, said)
 

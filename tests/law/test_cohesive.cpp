@@ -53,7 +53,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(cohesion_adapts_other_laws, D, dimensions) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(without_cohesion_it_is_the_law_itself, D, dimensions) {
     constexpr int dim = D::value;
     RandomBlocks random(34);
-    // Not a constant: Clang folds 1 + mu * mu of a constant with one rounding, and computes it with two.
+    // Not a constant: Clang folds 1 + mu * mu of a constant with one rounding, and computes it with
+    // two.
     const talus::Coulomb<dim> plain{random.uniform(0.1, 1.0)};
     const talus::CohesiveCoulomb<dim> law{plain, 0.0};
     for (int k = 0; k < 100; ++k) {

@@ -614,6 +614,49 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_run_tells_that_bodies_may_have_passed_unseen, D,
     BOOST_TEST(to_string(slow).find("went too far") == std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(overlaps_are_told_of_the_thinner_body, D, dimensions) {
+    constexpr int Dim = D::value;
+    const auto overlap = [](const auto& shape, double half, double share) {
+        talus::Simulation<D::value> sim(law<D::value>(0.3), {.h = 1e-3});
+        sim.system().gravity = -9.81 * up<D::value>();
+        sim.system().add_obstacle(talus::HalfSpace<D::value>{up<D::value>(), 0.0});
+        sim.system().add(shape, 1000.0,
+                         talus::Pose<D::value>{(1.0 - share) * half * up<D::value>(), {}});
+        const talus::RunSummary run = sim.run(0.01);
+        BOOST_TEST(run.certified() == (share < 0.149), to_string(run));
+        return run.overlap.value;
+    };
+    V<Dim> sheet = V<Dim>::Ones();
+    sheet[up<Dim>()[1] != 0.0 ? 1 : Dim - 1] = 1e-3;
+    for (const double share : {0.05, 0.099, 0.14, 0.16, 0.5}) {
+        BOOST_TEST(std::abs(overlap(talus::Ball<Dim>(0.1), 0.1, share) - share) < 1e-3);
+        BOOST_TEST(std::abs(overlap(talus::Box<Dim>(0.1 * V<Dim>::Ones()), 0.1, share) - share) <
+                   1e-3);
+        BOOST_TEST(std::abs(overlap(talus::Box<Dim>(sheet), 1e-3, share) - share) < 1e-3);
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(an_obstacle_that_jumps_is_told, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim> sim(law<Dim>(0.3), {.h = 1e-3});
+    sim.system().gravity = V<Dim>::Zero();
+    sim.system().add_obstacle(
+        talus::Box<Dim>(0.1 * V<Dim>::Ones()), talus::PrescribedMotion<Dim>::of_pose([](double t) {
+            return talus::Pose<D::value>{(t < 0.0507 ? -0.5 : 0.5) * V<D::value>::Unit(0), {}};
+        }));
+    sim.system().add(talus::Ball<Dim>(0.1), 1000.0, talus::Pose<Dim>{});
+    const talus::RunSummary run = sim.run(0.1);
+    BOOST_TEST(run.travel.value == 1.0 / 0.4, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(run.travel.time == 0.051, boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_force_without_a_function_is_refused, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim> sim(law<Dim>(0.3));
+    sim.system().forces.push_back({});
+    BOOST_CHECK_THROW(sim.step(), talus::input_error);
+}
+
 template <int Dim>
 struct AutomaticTypes : talus::SimulationTypes<Dim> {
     using Solver = talus::Automatic<Dim, talus::DefaultLaw<Dim>>;

@@ -289,7 +289,10 @@ TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Dat
     const std::size_t n = bodies.count();
     if (!system.forces.empty()) {
         data.applied.assign(n, Wrench<Dim>{});
-        for (const auto& force : system.forces) force(data.t_mid(), bodies, data.applied);
+        for (const auto& force : system.forces) {
+            if (!force) throw input_error("a force of the system is empty, but must be callable");
+            force(data.t_mid(), bodies, data.applied);
+        }
         require_finite_forces(data);
     } else {
         data.applied.clear();

@@ -25,6 +25,7 @@ struct RunSummary {
         BodyIndex a = no_body, b = no_body;  ///< no_body where there was none
     };
     static constexpr BodyIndex no_body = -1;
+    static constexpr double deepest_overlap = 0.15;  ///< of a run that is certified [-]
 
     std::int64_t steps = 0;
     std::int64_t missed = 0;  ///< steps whose solver did not converge
@@ -35,7 +36,8 @@ struct RunSummary {
     /// overlap has grown by more for want of accuracy. A bound, and far above what comes of it
     /// where the worst contact is another one in each step: it is told, `overlap` is judged.
     double drift = 0.0;
-    /// Deepest overlap as a fraction of the bounding radius of the smaller body [-].
+    /// Deepest overlap as a fraction of half the thickness of the thinner body
+    /// (System::half_thickness; of discs and balls: the radius) [-].
     Worst overlap;
     /// How far two bodies went in one step, of their thicknesses together [-]. Contacts are looked
     /// for once a step: beyond 1 the two that went furthest could have passed through each other
@@ -44,9 +46,9 @@ struct RunSummary {
     Worst travel;
     bool stopped = false;  ///< by the observer
 
-    /// Every step converged, and no body was entered by more than a tenth of its radius. Of
+    /// Every step converged, and no body was entered by more than 0.15 of half its thickness. Of
     /// contacts that were seen: look at `travel` where bodies are thin or fast.
-    bool certified() const { return missed == 0 && overlap.value <= 0.1; }
+    bool certified() const { return missed == 0 && overlap.value <= deepest_overlap; }
 
     /// Notes a step. O(bodies + contacts).
     template <int Dim, class Law, class ShapeType>
@@ -59,36 +61,45 @@ struct RunSummary {
         note(velocity_error, data.report.velocity_error, data, c);
         drift += data.h * data.report.velocity_error;
         note_travel(system, data);
-        const auto radius = system.bounding_radius();
+        const auto half = system.half_thickness();
         for (std::size_t k = 0; k < data.contact_count(); ++k) {
             if (data.contacts.gap[k] >= 0.0) continue;
             const auto [a, b, feature] = data.contacts.key[k];
-            const double smaller =
-                std::min(radius[static_cast<std::size_t>(a)], radius[static_cast<std::size_t>(b)]);
-            note(overlap, -data.contacts.gap[k] / smaller, data, k);
+            const double thinner =
+                std::min(half[static_cast<std::size_t>(a)], half[static_cast<std::size_t>(b)]);
+            note(overlap, -data.contacts.gap[k] / thinner, data, k);
         }
     }
 
   private:
+    /// Of all pairs, that of the two bodies with the most way beyond their own thickness has the
+    /// most together; what has no bounds has no other side.
     template <class System, class Data>
     void note_travel(const System& system, const Data& data) {
-        // Of all pairs, that of the two bodies with the most way beyond their own thickness has the
-        // most together; what has no bounds has no other side.
         struct Way {
             double beyond = -std::numeric_limits<double>::infinity(), way = 0.0, thickness = 0.0;
             std::size_t body = 0;
         } first, second;
-        for (std::size_t i = 0; i < system.bodies.count(); ++i) {
+        const auto compare = [&](std::size_t i, const auto& linear, const auto& angular) {
             const double radius = system.bounding_radius()[i];
             const double thickness = 2.0 * system.half_thickness()[i];
-            if (!std::isfinite(radius) || !std::isfinite(thickness)) continue;
-            const auto twist = system.bodies.twist(i);
-            const double way = data.h * (twist.linear.norm() + twist.angular.norm() * radius);
+            if (!std::isfinite(radius) || !std::isfinite(thickness)) return;
+            const double way = linear.norm() + angular.norm() * radius;
             const Way one{way - thickness, way, thickness, i};
             if (one.beyond > first.beyond)
                 second = std::exchange(first, one);
             else if (one.beyond > second.beyond)
                 second = one;
+        };
+        for (std::size_t i = 0; i < system.bodies.count(); ++i) {
+            if (system.bodies.is_obstacle(i)) continue;
+            const auto twist = system.bodies.twist(i);
+            compare(i, data.h * twist.linear, data.h * twist.angular);
+        }
+        // Where they went, not by what their motions say of it: they may have jumped.
+        for (const auto& [body, motion] : system.obstacles) {
+            const auto way = motion.displacement(data.t_begin, data.t_end());
+            compare(static_cast<std::size_t>(body), way.linear, way.angular);
         }
         const double thickness = first.thickness + second.thickness;
         if (!std::isfinite(second.beyond) || !(thickness > 0.0)) return;
@@ -97,6 +108,7 @@ struct RunSummary {
             travel = {share, data.t_end(), static_cast<BodyIndex>(first.body),
                       static_cast<BodyIndex>(second.body)};
     }
+
     template <class Data>
     static void note(Worst& worst, double value, const Data& data, std::size_t contact) {
         if (!(value > worst.value) && !std::isnan(value)) return;
@@ -125,7 +137,7 @@ inline std::string to_string(const RunSummary& run) {
     if (run.drift > 0.0)
         text += "; errors of velocity add up to " + detail::text_of(run.drift) + " m";
     if (run.overlap.value > 0.0)
-        text += "; deepest overlap, of the smaller radius, " + at(run.overlap);
+        text += "; deepest overlap, of half the thinner body, " + at(run.overlap);
     if (run.travel.value > 1.0)
         text += "; went too far in one step to be sure to meet, of their thicknesses, " +
                 at(run.travel);
