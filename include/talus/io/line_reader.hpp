@@ -47,8 +47,9 @@ std::optional<Number> parsed_number(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (end != text.data() + text.size()) return std::nullopt;
     if (error == std::errc{}) return value;
-    const bool tiny = std::is_floating_point_v<Number> &&
-                      (text.find("e-") != text.npos || text.find("E-") != text.npos);
+    const bool tiny =
+        std::is_floating_point_v<Number> &&
+        (text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos);
     if (error == std::errc::result_out_of_range && tiny) return Number{};
     return std::nullopt;
 }
