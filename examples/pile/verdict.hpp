@@ -49,8 +49,7 @@ inline std::vector<std::string> impossible_in(const Figures& f, const Possible& 
     const auto pair = f.overlap.one + " and " + f.overlap.another;
     if (!(f.overlap.value <= possible.overlap))
         say("In step %lld %s overlapped by %.3g %% of the thinner one's half thickness, but solids "
-            "keep "
-            "out of each other.",
+            "keep out of each other.",
             static_cast<long long>(f.overlap.step), pair.c_str(), 100 * f.overlap.value);
     double largest_force = 1.0;
     for (std::size_t k = f.late(); k < f.steps.size(); ++k)

@@ -177,6 +177,7 @@ BOOST_AUTO_TEST_CASE(what_writers_of_obj_are_free_to_do_is_read) {
     same("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\n3\\\n 4\n");
     same("v 0 0 0# first\nv 1 0 0 # second\nv 1 1 0#\nv 0 1 0\nf 1 2 3 4# all\n# no more\n");
     same("v 0 0 0\rv 1 0 0\rv 1 1 0\rv 0 1 0\rf 1 2 3 4\r");
+    same("# C:\\\nv 0 0 0\nv 1 0 0 # C:\\\nv 1 1 0\nusemtl C:\\\nv 0 1 0\nf 1 2 3 \\ # C:\\\n4\n");
     same("v 0 0 1e-400\nv 1 0 -2E-9999\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
     // Points that no face names are no part of the surface.
     const Mesh more =

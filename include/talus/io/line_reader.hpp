@@ -87,8 +87,9 @@ class LineReader {
             words_.resize(mark > 0 ? k + 1 : k);
         }
     }
-    /// Appends the next line as long as this one ends with a backslash.
+    /// Appends the next line as long as this one, without its comment, ends with a backslash.
     void join_continued_lines() {
+        drop_comment();
         while (!words_.empty() && words_.back().ends_with('\\')) {
             words_.back().pop_back();
             if (words_.back().empty()) words_.pop_back();
@@ -99,6 +100,7 @@ class LineReader {
             words.insert(words.end(), words_.begin(), words_.end());
             words_ = std::move(words);
             used_ = used;
+            drop_comment();
         }
     }
 

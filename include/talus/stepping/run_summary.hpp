@@ -93,8 +93,7 @@ struct RunSummary {
         };
         for (std::size_t i = 0; i < system.bodies.count(); ++i) {
             if (system.bodies.is_obstacle(i)) continue;
-            const auto twist = system.bodies.twist(i);
-            compare(i, data.h * twist.linear, data.h * twist.angular);
+            compare(i, data.h * data.end[i].linear, data.h * data.end[i].angular);
         }
         // Where they went, not by what their motions say of it: they may have jumped.
         for (const auto& [body, motion] : system.obstacles) {

@@ -42,10 +42,8 @@ inline Mesh parse_obj(std::istream& text, const std::string& file) {
     std::vector<std::uint32_t> numbers;  // in the welded mesh
     std::size_t face_count = 0;
     while (in.next_words()) {
-        in.join_continued_lines();
-        if (in.words_left() == 0) continue;
         const std::string key = in.word("a key");
-        if (key == "v" || key == "f") in.drop_comment();
+        if (key == "v" || key == "f") in.join_continued_lines();
         if (key == "v") {
             const std::string name = "vertex " + std::to_string(numbers.size() + 1);
             Vector<3> x;
