@@ -2,6 +2,10 @@
 #include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
+#include <limits>
+#include <utility>
+#include <vector>
+
 #include "common/dimensions.hpp"
 #include "common/solver_tester.hpp"
 
@@ -34,6 +38,79 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_tower_takes_far_fewer_passes_than_plain_sweeps, 
         const auto& report = solver.solve(p, r);
         BOOST_TEST((report.status == talus::SolveStatus::converged));
         BOOST_TEST(2 * report.iterations < sweeps / 4);
+    }
+}
+
+// A tower from nothing, with a tolerance, an aim and what may be spent on that.
+template <int Dim>
+struct Aimed {
+    using Law = talus::Coulomb<Dim>;
+    talus::ContactProblem<Dim, Law> problem;
+    std::vector<talus::Vector<Dim>> r;
+    talus::SolveReport report;
+
+    Aimed(Acceleration acceleration, double tolerance, double aim, double effort,
+          int max_iterations = 10000)
+        : problem(stack_of_particles<Dim>(std::vector<double>(60, 1.0), Law{.mu = 0.5})),
+          r(60, talus::Vector<Dim>::Zero()) {
+        problem.free_velocity[0][0] = -1.0;
+        talus::AcceleratedGaussSeidel<Dim, Law> solver({.max_iterations = max_iterations,
+                                                        .tolerance = tolerance,
+                                                        .acceleration = acceleration,
+                                                        .aim = aim,
+                                                        .effort = effort});
+        report = solver.solve(problem, r);
+    }
+    double residual() const { return talus::residual<Dim, Law>(problem, r).relative; }
+};
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(it_goes_on_to_the_aim_while_that_is_cheap, D, dimensions) {
+    constexpr int dim = D::value;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    for (const auto acceleration : {Acceleration::nesterov, Acceleration::anderson}) {
+        const Aimed<dim> rough(acceleration, 1e-2, none, 1e6), fine(acceleration, 1e-8, none, 1e6);
+        BOOST_TEST(rough.report.iterations < fine.report.iterations);
+        BOOST_TEST(rough.residual() > 1e-4);
+
+        const Aimed<dim> aimed(acceleration, 1e-2, 1e-8, 1e6);
+        BOOST_TEST((aimed.report.status == talus::SolveStatus::converged));
+        BOOST_TEST(aimed.report.iterations == fine.report.iterations);
+        BOOST_TEST((aimed.r == fine.r));
+        // A tolerance below the aim is what counts.
+        const Aimed<dim> strict(acceleration, 1e-8, 1e-2, 1e6);
+        BOOST_TEST((strict.r == fine.r));
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(an_aim_too_far_costs_its_effort_and_no_more, D, dimensions) {
+    constexpr int dim = D::value;
+    constexpr double unreachable = 0.0;
+    for (const auto acceleration : {Acceleration::nesterov, Acceleration::anderson})
+        for (const int passes : {60, 100}) {
+            const double effort = 2.0 * 60 * passes;  // 60 contacts
+            const Aimed<dim> aimed(acceleration, 1e-2, unreachable, effort);
+            BOOST_TEST((aimed.report.status == talus::SolveStatus::converged));
+            BOOST_TEST(aimed.report.iterations == passes);
+            // What is returned is the best that was measured, and what the report says of it.
+            BOOST_TEST(aimed.residual() == aimed.report.residual);
+            for (const auto& sample : aimed.report.history)
+                BOOST_TEST(aimed.report.residual <= sample.residual);
+            // Never less than 50 double sweeps, and within the limit.
+            BOOST_TEST(Aimed<dim>(acceleration, 1e-2, unreachable, 0.0).report.iterations == 50);
+            const Aimed<dim> limited(acceleration, 1e-2, unreachable, effort, 40);
+            BOOST_TEST(limited.report.iterations == 40);
+            BOOST_TEST((limited.report.status == talus::SolveStatus::converged));
+            // Before the tolerance is met, effort is no limit.
+            const Aimed<dim> hard(acceleration, 1e-10, unreachable, 0.0);
+            BOOST_TEST((hard.report.status == talus::SolveStatus::converged));
+            BOOST_TEST(hard.residual() <= 1e-10);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(an_aim_that_is_no_number_is_refused) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [aim, effort] : {std::pair{nan, 1.0}, {-1.0, 1.0}, {1.0, nan}, {1.0, -1.0}}) {
+        BOOST_CHECK_THROW(Aimed<2>(Acceleration::nesterov, 1e-4, aim, effort), talus::input_error);
     }
 }
 

@@ -22,7 +22,7 @@ using namespace experiment;
 
 /// Of all steps, what simulations ask for by default. (More is asked for here, but many contacts in
 /// nearly the same place are slow to get there.)
-constexpr double accurate = talus::DefaultSolver::params.tolerance;
+constexpr double accurate = talus::DefaultSolver::params.aim;
 
 template <int Dim>
 talus::Simulation<Dim> anticipating(double mu, double h, double gravity = g) {
