@@ -39,11 +39,9 @@ struct AcceleratedGaussSeidelParams {
     /// Iterations without convergence after which other ways are tried, again and again, see below
     /// [-], not negative; 0: never.
     int patience = 500;
-    /// Residual to go on to where the tolerance is met while that is cheap, see `effort` [-], not
-    /// negative. At or above the tolerance: nothing more.
+    /// Residual to go on to below the tolerance while that is cheap [-], not negative.
     double aim = std::numeric_limits<double>::infinity();
-    /// What is cheap: so many visits of a contact in a solve [-], not negative, and never less than
-    /// 50 double sweeps.
+    /// What is cheap: so many visits of contacts [-], not negative; at least 50 double sweeps.
     double effort = 5e5;
 };
 
@@ -65,11 +63,9 @@ struct AcceleratedGaussSeidelParams {
 /// coefficient of 5: momentum alone misses 1e-4 in 39 of 400 steps within 2000 iterations; the
 /// tries solve all but one of the first 12 of these in 175.)
 ///
-/// Two numbers say what is asked for where one would be too little at rest or too much in motion: a
-/// tower stands by the last digits of its impulses and gets them for nothing, a packing that flows
-/// takes a hundred times the sweeps for a digit that its motion forgets. What converges is what
-/// meets `tolerance`; up to `effort` the sweeps go on to `aim`, and the best impulses measured are
-/// returned.
+/// One accuracy is too little for towers, which stand by the last digits and get them for nothing,
+/// or too much for packings that flow, which take ten times the sweeps for a digit. What converges
+/// is what meets `tolerance`; up to `effort` it goes on to `aim`. The best measured is returned.
 ///
 /// Cost per iteration: two sweeps and half a sweep for the start at y; Anderson adds 3 depth
 /// products of vectors. Its memory, 2 depth + 4 impulses per contact, is kept in reserve also for
