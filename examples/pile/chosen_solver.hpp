@@ -32,7 +32,7 @@ class ChosenSolver {
           named_(talus::make_solver<Dim, talus::Coulomb<Dim>>(name.empty() ? "automatic" : name,
                                                               settings)) {
         default_.params.tolerance = settings.tolerance;
-        default_.params.aim = settings.tolerance;
+        default_.params.aim = settings.tolerance;  // one accuracy in all steps
         default_.params.max_iterations = settings.max_iterations;
     }
 

@@ -19,7 +19,7 @@ struct Options {
     double duration = 1.0;    ///< [s]
     double step = 5e-4;       ///< h [s]
     std::string solver;       ///< name in the library's registry; empty: that of simulations
-    double tolerance = 1e-4;  ///< on the residual: as simulations have it
+    double tolerance = 1e-4;  ///< on the residual of every step: the aim of simulations
     double max_sweeps = 20000;
     std::string scheme = "anticipating";
     double correction = 0.0;       ///< share of overlaps removed per step

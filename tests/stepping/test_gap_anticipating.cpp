@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_SUITE(stepping_gap_anticipating)
 
 using namespace experiment;
 
-/// Of all steps, what simulations ask for by default. (More is asked for here, but many contacts in
+/// Of all steps, what simulations aim at by default. (More is asked for here, but many contacts in
 /// nearly the same place are slow to get there.)
 constexpr double accurate = talus::DefaultSolver::params.aim;
 

@@ -247,9 +247,13 @@ BOOST_AUTO_TEST_CASE(a_tower_of_fifty_squares_stands_with_all_defaults) {
     };
     const auto run = sim.run(0.5);
     BOOST_TEST(run.certified(), to_string(run));
+    // Where contacts may violate their laws by a hundredth, not a thousandth, it falls within 2 s.
+    constexpr double aim = talus::DefaultSolver::params.aim;
+    BOOST_TEST(aim == 1e-4);
+    BOOST_TEST(run.residual.value <= aim);
     BOOST_TEST(turned() < 0.01);
-    // Where a contact may violate its law by a hundredth, not a thousandth, it falls within 2 s.
-    BOOST_TEST(sim.run(1.0).missed < 10);
+    const auto later = sim.run(1.0);
+    BOOST_TEST(later.missed == 0, to_string(later));
     BOOST_TEST(turned() < 0.01);
 }
 
@@ -260,8 +264,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_first_pile_misses_no_tolerance, D, dimensions) {
     BOOST_TEST(run.missed == 0, to_string(run));
     BOOST_TEST(run.steps == 300);
     BOOST_TEST(run.residual.value > 0.0);
-    BOOST_TEST(run.residual.value <= 1e-4);
-    BOOST_TEST(run.contact_error.value <= 1e-3);
+    // So few contacts reach what is aimed at, in every step.
+    BOOST_TEST(run.residual.value <= talus::DefaultSolver::params.aim);
+    BOOST_TEST(run.contact_error.value <= 10.0 * talus::DefaultSolver::params.aim);
     BOOST_TEST(run.contact_error.b >= 0);
     BOOST_TEST(to_string(run).find("300 steps, 0 missed") == 0u);
 }
@@ -272,7 +277,7 @@ BOOST_AUTO_TEST_CASE(a_run_says_what_it_missed) {
     const auto run = sim.run(0.4);
     BOOST_TEST(run.missed > 10);
     BOOST_TEST(!run.certified());
-    BOOST_TEST(run.residual.value > 1e-4);
+    BOOST_TEST(run.residual.value > talus::DefaultSolver::params.tolerance);
     BOOST_TEST(run.overlap.value > 0.0);
 }
 

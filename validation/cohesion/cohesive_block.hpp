@@ -43,7 +43,7 @@ class CohesiveBlock {
 
   private:
     using Contact = talus::CohesiveCoulomb<Dim>;
-    using Solver = talus::AcceleratedGaussSeidel<Dim, Contact>;  // that of simulations
+    using Solver = talus::AcceleratedGaussSeidel<Dim, Contact>;  // with its own defaults
 
     static talus::SimulationParams settings(double h, Fault fault) {
         talus::SimulationParams result;

@@ -6,7 +6,7 @@ namespace D19 {
 
 /// Of the heavy ball to the light one.
 constexpr double mass_ratio = 1e4;
-/// What simulations ask for by default.
+/// What steps of simulations aim at by default.
 constexpr double tolerance = 1e-4;
 
 template <int Dim>
@@ -56,7 +56,7 @@ const Register d19(
      .gate = 1,
      .setup = "A ball of radius 1 m stands on one of the same stuff with a 10000th of its mass "
               "(radius 10 mm in the plane, 46 mm in space), upright and without friction. The "
-              "solver's tolerance is that of the library's simulations, 1e-4.",
+              "solver's tolerance is 1e-4, at which the library's simulations aim.",
      .reference = {"N_{heavy} = M g", "N_{floor} = (M + m) g", "u_{end} = 0"},
      .compared = "Both forces, the speed of the heavy ball, and how far it sinks in five steps.",
      .kind = Class::T,

@@ -71,7 +71,7 @@ constexpr auto registry_entries() {
         entry<Dim, Law, AcceleratedGaussSeidel<Dim, Law>>(
             "accelerated_gauss_seidel", "double sweeps, combined by Anderson; to 1e-8"),
         entry<Dim, Law, AcceleratedGaussSeidel<Dim, Law>, WithMomentum>(
-            "momentum_gauss_seidel", "double sweeps with momentum; the default of simulations"),
+            "momentum_gauss_seidel", "double sweeps with momentum; the method of simulations"),
     };
     if constexpr (ConeLaw<Law, Dim>) {
         return std::array{

@@ -53,7 +53,8 @@ struct StepParams {
 /// (System::half_thickness), that of the thinner free body. `fall` is h |u_free - u_begin|, how far
 /// loads alone would take a body's points within the step, g h^2 for its weight: of two bodies the
 /// larger. A tenth of 0.01 of it is what the default solver at its aim of 1e-4 lets bodies at rest
-/// part in a step (ResidualMeasure). With 0 such a contact would be lost in the next one, and with
+/// part in a step (ResidualMeasure), and all of it at its tolerance of 1e-3. With 0 such a contact
+/// would be lost in the next one, and with
 /// it friction and the moments that hold a wall upright. Rounding of "exactly" placed bodies is far
 /// below it. Where loads take a body farther than a tenth of its half thickness within a step, the
 /// upper end does not leave that room: the step is too large for such bodies.

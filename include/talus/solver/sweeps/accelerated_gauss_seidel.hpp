@@ -36,12 +36,14 @@ struct AcceleratedGaussSeidelParams {
     Acceleration acceleration = Acceleration::anderson;
     /// Iterates that Anderson's combination looks back [-], in [1, 20].
     int depth = 10;
-    /// Iterations without convergence after which other ways are tried, again and again, see below
-    /// [-], not negative; 0: never.
+    /// Iterations after which other ways are tried, again and again, see below [-], not negative;
+    /// 0: never.
     int patience = 500;
-    /// Residual to go on to below the tolerance while that is cheap [-], not negative.
+    /// Residual to go on to, once the tolerance is met, within `effort` [-], not negative; at or
+    /// above the tolerance: to none. To miss it is no failure.
     double aim = std::numeric_limits<double>::infinity();
-    /// What is cheap: so many visits of contacts [-], not negative; at least 50 double sweeps.
+    /// Until when: visits of contacts since the solve began, some 20 ms [-], not negative; in large
+    /// systems 50 double sweeps, which is as many as a step takes to 1e-3 where little moves.
     double effort = 5e5;
 };
 
@@ -52,20 +54,16 @@ struct AcceleratedGaussSeidelParams {
 /// Both accelerators are safeguarded by the increment |T(y) - y| that the map itself gives: when it
 /// grows (for Anderson: to twice the least so far), what they remember is dropped, and double
 /// sweeps go on from where they are. To 1e-8 that is 3 to 100 times faster than Gauss-Seidel on
-/// deep or hyperstatic systems.
+/// deep or hyperstatic systems. With friction the map has no potential: momentum may run in
+/// circles, and it leaves errors at single contacts that a few plain sweeps remove. So after every
+/// `patience` iterations other ways are tried, from where it is: sweeps that go 0.4 of their way,
+/// then the other accelerator, longer each time. Momentum then goes on as if nothing had been (it
+/// needs long runs); after four such tries a thousand pairs of plain sweeps, twice as many the next
+/// time and so on, start from the best impulses measured.
 ///
-/// With friction the map has no potential: momentum may run in circles, and it leaves errors at
-/// single contacts that a few plain sweeps remove. So after every `patience` iterations other ways
-/// are tried, from where it is: sweeps that go 0.4 of their way, then the other accelerator, longer
-/// each time. Momentum then goes on as if nothing had been (it needs long runs); after four such
-/// tries a thousand pairs of plain sweeps, twice as many the next time and so on, start from the
-/// best impulses measured, which are what is returned in the end. (50 discs with a friction
-/// coefficient of 5: momentum alone misses 1e-4 in 39 of 400 steps within 2000 iterations; the
-/// tries solve all but one of the first 12 of these in 175.)
-///
-/// One accuracy is too little for towers, which stand by the last digits and get them for nothing,
-/// or too much for packings that flow, which take ten times the sweeps for a digit. What converges
-/// is what meets `tolerance`; up to `effort` it goes on to `aim`. The best measured is returned.
+/// Towers need 1e-4 to stand and reach it in a few hundred passes; packings that flow take ten
+/// times those of 1e-3. So what meets `tolerance` has converged, and goes on to `aim` up to
+/// `effort`. The best impulses measured are returned; `iterations` is the work done.
 ///
 /// Cost per iteration: two sweeps and half a sweep for the start at y; Anderson adds 3 depth
 /// products of vectors. Its memory, 2 depth + 4 impulses per contact, is kept in reserve also for
@@ -160,9 +158,9 @@ class AcceleratedGaussSeidel {
     void iterate(Sweeper& sweeper);
     bool run(Sweeper& sweeper, Way way, int length);
     bool verify(Sweeper& sweeper, int iterations);
-    /// The residual that ends the solve after so many iterations.
+    /// The residual that ends a solve so long.
     double wanted(int iterations) const {
-        return iterations < effort_ ? std::min(params.aim, params.tolerance) : params.tolerance;
+        return iterations < last_for_aim_ ? params.aim : params.tolerance;
     }
 
     void reset_momentum() {
@@ -181,7 +179,7 @@ class AcceleratedGaussSeidel {
     RigidBodyOperators<Dim> bodies_;
     SweepKernel<Dim, Law> kernel_;
     int count_ = 0, next_look_ = 1;  ///< of iterations
-    int effort_ = 0;                 ///< iterations after which the aim is given up
+    int last_for_aim_ = 0;           ///< iteration at which the aim is given up; 0: there is none
     // y_: where the next map begins, own_y_: that of the own way meanwhile; kept_: the best
     // impulses measured.
     std::vector<Vector<Dim>> x_, y_, own_y_, kept_;
@@ -232,11 +230,13 @@ void AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper) {
     best_ = {.relative = std::numeric_limits<double>::infinity()};
     constexpr double least = 50.0;  // double sweeps
     const double visits = 2.0 * static_cast<double>(std::max<std::size_t>(r.size(), 1));
-    effort_ = static_cast<int>(std::clamp(params.effort / visits, least, 1e9));
+    last_for_aim_ = 0;
+    if (params.aim < params.tolerance)
+        last_for_aim_ = static_cast<int>(std::clamp(params.effort / visits, least, 1e9));
     if (verify(sweeper, 0)) return;
     iterate(sweeper);
-    if (report_.status == SolveStatus::not_finite && best_.relative > params.tolerance) return;
-    if (best_.relative < report_.residual || report_.status == SolveStatus::not_finite) {
+    // Written so that a residual that is not a number gives way to one that is.
+    if (best_.finite() && !(best_.relative >= report_.residual)) {
         std::copy(kept_.begin(), kept_.end(), r.begin());
         sweeper.start();
         report_.take(best_);
@@ -299,10 +299,10 @@ bool AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper, Way way, int length
         for (std::size_t i = 0; i < r.size(); ++i)
             change += (r[i] - y_[i]).squaredNorm() / kernel_.measure().effective_mass(i);
         change = std::sqrt(change);
-        // The increment bounds the residual by a ratio that changes slowly: a residual, half a
-        // sweep, is paid for only where it may be the last.
-        const bool hopeful = !(change * ratio > wanted(k));
-        if (k == end || k == next_look_ || k == effort_ || hopeful) {
+        // The increment bounds the residual by a ratio that changes slowly.
+        const bool unmet = best_.relative > params.tolerance;
+        const bool hopeful = !(change * ratio > (unmet ? params.tolerance : wanted(k)));
+        if (k == end || k == next_look_ || k == last_for_aim_ || hopeful) {
             if (verify(sweeper, k) || change == 0.0) return true;
             ratio = report_.residual / change;
             // After 1, 2, 4, 7, 11...: history for the observer of the report.
