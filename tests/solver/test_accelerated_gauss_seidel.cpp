@@ -3,6 +3,7 @@
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -136,6 +137,38 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(without_an_aim_effort_changes_no_bit, D, dimension
         const Aimed<dim> one(acceleration, 1e-10, none, 0.0), other(acceleration, 1e-10, none, 1e9);
         BOOST_TEST((one.r == other.r));
         BOOST_TEST(one.report.history.size() == other.report.history.size());
+    }
+}
+
+// A contact that answers with no number after so many visits, long after the tolerance was met.
+struct BreaksLater {
+    talus::Coulomb<2> law;
+    std::shared_ptr<int> visits = std::make_shared<int>(0);
+
+    talus::Vector<2> solve(const talus::LocalProblem<2>& p, const talus::Vector<2>& r) const {
+        constexpr int most = 30;
+        if (++*visits > most)
+            return talus::Vector<2>::Constant(std::numeric_limits<double>::quiet_NaN());
+        return law.solve(p, r);
+    }
+    talus::Vector<2> natural_map(const talus::Vector<2>& u, const talus::Vector<2>& r,
+                                 double rho) const {
+        return law.natural_map(u, r, rho);
+    }
+};
+
+BOOST_AUTO_TEST_CASE(what_met_the_tolerance_survives_a_law_that_breaks_later) {
+    using talus::SolveStatus;
+    for (const bool met : {true, false}) {
+        auto p = stack_of_particles<2>(std::vector<double>(20, 1.0), BreaksLater{{.mu = 0.5}});
+        for (auto& law : p.laws) law.visits = std::make_shared<int>(0);
+        p.free_velocity[0][0] = -1.0;
+        std::vector<talus::Vector<2>> r(p.contact_count(), talus::Vector<2>::Zero());
+        talus::AcceleratedGaussSeidel<2, BreaksLater> solver(
+            {.tolerance = met ? 0.5 : 1e-13, .aim = 1e-14});
+        const auto& report = solver.solve(p, r);
+        BOOST_TEST((report.status == (met ? SolveStatus::converged : SolveStatus::not_finite)));
+        BOOST_TEST((talus::residual<2, BreaksLater>(p, r).relative == report.residual));
     }
 }
 

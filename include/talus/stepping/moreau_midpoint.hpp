@@ -54,10 +54,10 @@ struct StepParams {
 /// loads alone would take a body's points within the step, g h^2 for its weight: of two bodies the
 /// larger. A tenth of 0.01 of it is what the default solver at its aim of 1e-4 lets bodies at rest
 /// part in a step (ResidualMeasure), and all of it at its tolerance of 1e-3. With 0 such a contact
-/// would be lost in the next one, and with
-/// it friction and the moments that hold a wall upright. Rounding of "exactly" placed bodies is far
-/// below it. Where loads take a body farther than a tenth of its half thickness within a step, the
-/// upper end does not leave that room: the step is too large for such bodies.
+/// would be lost in the next one, and with it friction and the moments that hold a wall upright.
+/// Rounding of "exactly" placed bodies is far below it. Where loads take a body farther than a
+/// tenth of its half thickness within a step, the upper end does not leave that room: the step is
+/// too large for such bodies.
 inline double closed_gap(const StepParams& params, double half_thickness, double fall) {
     constexpr double of_fall = 0.01, least = 1e-5, most = 1e-3;
     return params.contact_tolerance.value_or(

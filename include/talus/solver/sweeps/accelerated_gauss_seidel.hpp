@@ -42,8 +42,8 @@ struct AcceleratedGaussSeidelParams {
     /// Residual to go on to, once the tolerance is met, within `effort` [-], not negative; at or
     /// above the tolerance: to none. To miss it is no failure.
     double aim = std::numeric_limits<double>::infinity();
-    /// Until when: visits of contacts since the solve began, some 20 ms [-], not negative; in large
-    /// systems 50 double sweeps, which is as many as a step takes to 1e-3 where little moves.
+    /// Until when: visits of contacts since the solve began, some 20 ms [-], not negative; but
+    /// never less than 50 double sweeps.
     double effort = 5e5;
 };
 
@@ -61,8 +61,8 @@ struct AcceleratedGaussSeidelParams {
 /// needs long runs); after four such tries a thousand pairs of plain sweeps, twice as many the next
 /// time and so on, start from the best impulses measured.
 ///
-/// Towers need 1e-4 to stand and reach it in a few hundred passes; packings that flow take ten
-/// times those of 1e-3. So what meets `tolerance` has converged, and goes on to `aim` up to
+/// Towers need 1e-4 to stand and reach it in some hundred passes; packings that flow take six to
+/// forty times those of 1e-3. So what meets `tolerance` has converged, and goes on to `aim` up to
 /// `effort`. The best impulses measured are returned; `iterations` is the work done.
 ///
 /// Cost per iteration: two sweeps and half a sweep for the start at y; Anderson adds 3 depth
