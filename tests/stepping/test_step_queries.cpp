@@ -44,7 +44,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(impulses_are_those_that_carry_the_weights, D, dime
     BOOST_TEST(talus::contacts_between(data, 0, 3).empty());
     BOOST_TEST(talus::touches(data, 2, 1));
     BOOST_TEST(!talus::touches(data, 2, 0));
-    BOOST_TEST(!talus::touches(data, 2, 17));
 
     BOOST_TEST(talus::wrench_impulse_on(data, 1).force[Dim - 1] == box, close);
     BOOST_TEST(talus::wrench_impulse_on(data, 2).force[Dim - 1] == ball, close);
@@ -90,6 +89,22 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(tilts_are_the_same_picture_in_the_plane_and_in_spa
     BOOST_TEST(first[Dim - 1] == std::sin(0.3), boost::test_tools::tolerance(1e-15));
     BOOST_TEST(last[0] == -std::sin(0.3), boost::test_tools::tolerance(1e-15));
     BOOST_TEST(last[Dim - 1] == std::cos(0.3), boost::test_tools::tolerance(1e-15));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_body_that_the_step_did_not_have_is_named, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = pair_on_a_floor<Dim>();
+    BOOST_CHECK_THROW(talus::touches(sim.data(), 0, 1), talus::input_error);  // there was no step
+    const auto& data = sim.step();
+    BOOST_TEST(!talus::touches(data, 0, 3));
+    BOOST_TEST(talus::wrench_impulse_on(data, 3).force.norm() == 0.0);
+    for (const talus::BodyIndex none : {-1, 4}) {
+        BOOST_CHECK_THROW(talus::touches(data, none, 1), talus::input_error);
+        BOOST_CHECK_THROW(talus::contacts_between(data, 1, none), talus::input_error);
+        BOOST_CHECK_THROW(talus::wrench_impulse_on(data, none), talus::input_error);
+        BOOST_CHECK_THROW(talus::wrench_impulse_between(data, 1, none), talus::input_error);
+        BOOST_CHECK_THROW(talus::wrench_impulse_between(data, none, 1), talus::input_error);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

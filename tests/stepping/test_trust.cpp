@@ -3,6 +3,7 @@
 // inaccurate solver, or depend on settings that a first program would not make.
 #include <talus/measure/energy_ledger.hpp>
 #include <talus/solver/automatic.hpp>
+#include <talus/spatial/tilt.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/gap_correction.hpp>
 
@@ -10,8 +11,11 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -666,6 +670,72 @@ template <int Dim>
 struct AutomaticTypes : talus::SimulationTypes<Dim> {
     using Solver = talus::Automatic<Dim, talus::DefaultLaw<Dim>>;
 };
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(an_obstacle_moved_by_hand_is_named, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = heap<Dim>(3, 3, law<Dim>(0.4), 2e-3);
+    auto& system = sim.system();
+    const auto lift = [](double t) {
+        return talus::Pose<Dim>{0.1 * t * up<Dim>() - up<Dim>(), {}};
+    };
+    const auto lifted = static_cast<std::size_t>(
+        system.add_obstacle(talus::Ball<Dim>(0.1), talus::PrescribedMotion<Dim>::of_pose(lift)));
+    for (int k = 0; k < 3; ++k) sim.step();
+    const auto bodies = system.bodies;
+    const auto refused = [&](const std::string& body) {
+        const auto moved = everything(system.bodies);
+        BOOST_CHECK_EXCEPTION(sim.step(), talus::input_error, [&](const talus::input_error& error) {
+            const std::string what = error.what();
+            return what.find("of body " + body) != std::string::npos &&
+                   what.find("by hand") != std::string::npos;
+        });
+        BOOST_TEST(equal_bits(everything(system.bodies), moved));
+        BOOST_TEST(sim.step_count() == 3);
+        system.bodies = bodies;
+    };
+    system.bodies.position[0] += 0.01 * up<Dim>();
+    refused("0");
+    system.bodies.velocity[0][0] = 1.0;
+    refused("0");
+    system.bodies.spin[lifted][0] = 1.0;
+    refused(std::to_string(lifted));
+    system.bodies.rotation[lifted] = talus::tilt<Dim>(0.1);
+    refused(std::to_string(lifted));
+    // Another motion is the way to do it.
+    system.obstacles.front().motion = talus::Pose<Dim>{-0.01 * up<Dim>(), {}};
+    BOOST_CHECK_NO_THROW(sim.step());
+    BOOST_TEST(system.bodies.position[0][Dim - 1] == -0.01);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_step_cannot_be_changed_on_its_way, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = heap<Dim>(3, 3, law<Dim>(0.4), 2e-3);
+    auto& system = sim.system();
+    const talus::Ball<Dim> ball(0.1);
+    const talus::Pose<Dim> away{5.0 * up<Dim>(), {}};
+    std::function<void()> meddle;
+    system.forces.push_back([&](double, const talus::Bodies<Dim>&, std::span<talus::Wrench<Dim>>) {
+        if (meddle) meddle();
+    });
+    sim.step();
+    const auto before = everything(system.bodies);
+    const auto refused = [&](auto&& what) {
+        meddle = what;
+        BOOST_CHECK_THROW(sim.step(), talus::input_error);
+        meddle = {};
+        BOOST_TEST(equal_bits(everything(system.bodies), before));
+        BOOST_TEST(system.shapes().size() == system.bodies.count());
+        BOOST_TEST(sim.step_count() == 1);
+    };
+    refused([&] { system.add(ball, 1000.0, away); });
+    refused([&] { system.add_obstacle(ball, away); });
+    refused([&] { system.set_shape(1, ball); });
+    refused([&] { sim.step(); });
+    sim.step();
+    system.add(ball, 1000.0, away);
+    sim.step();
+    BOOST_TEST(sim.step_count() == 3);
+}
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_a_million_times_as_heavy_rests_on_a_light_one, D, dimensions) {
     constexpr int Dim = D::value;

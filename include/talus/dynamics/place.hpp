@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -92,5 +93,27 @@ void place(Bodies<Dim>& bodies, std::size_t i, const PrescribedMotion<Dim>& moti
     bodies.velocity[i] = twist.linear;
     bodies.spin[i] = pose.rotation.spin_body(twist.angular);
 }
+
+/// The state that a body was given, to notice when somebody else has changed it.
+template <int Dim>
+struct PlacedState {
+    Vector<Dim> position;
+    Rotation<Dim> rotation;
+    Vector<Dim> velocity;
+    AngularVector<Dim> spin;
+
+    static PlacedState of(const Bodies<Dim>& bodies, std::size_t i) {
+        return {bodies.position[i], bodies.rotation[i], bodies.velocity[i], bodies.spin[i]};
+    }
+    /// Bit for bit.
+    bool is_of(const Bodies<Dim>& bodies, std::size_t i) const {
+        const auto equal = [](const auto& x, const auto& y) {
+            return std::memcmp(x.data(), y.data(),
+                               sizeof(double) * static_cast<std::size_t>(x.size())) == 0;
+        };
+        return equal(position, bodies.position[i]) && equal(velocity, bodies.velocity[i]) &&
+               equal(spin, bodies.spin[i]) && equal(rotation.matrix(), bodies.rotation[i].matrix());
+    }
+};
 
 }  // namespace talus

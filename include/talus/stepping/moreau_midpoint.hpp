@@ -79,12 +79,14 @@ class MoreauMidpoint {
     using Data = StepData<Dim, Law>;
 
     /// Advances `system` from t_begin by h; `data` receives what happened. Throws input_error if a
-    /// prescribed motion or an applied force is not finite, and lets pass what a law, a force, a
-    /// motion, a shape, a hook or the solver throws: in each case with the bodies and the impulses
-    /// remembered as they were, bit for bit (`data` is then of no step).
+    /// prescribed motion or an applied force is not finite or an obstacle was moved by hand, and
+    /// lets pass what a law, a force, a motion, a shape, a hook or the solver throws: in each case
+    /// with the bodies and the impulses remembered as they were, bit for bit (`data` is then of no
+    /// step).
     template <ContactSolver<Dim, Law> Solver>
     void step(SystemType& system, double t_begin, double h, const StepParams& params,
               Solver& solver, Data& data) {
+        system.begin_step();
         try {
             pose_problem(system, t_begin, h, params, data);
             const SolveReport& report =
@@ -95,8 +97,10 @@ class MoreauMidpoint {
             complete(system, data);
         } catch (...) {
             undo(system);
+            system.end_step();
             throw;
         }
+        system.end_step();
     }
 
     /// The first half of a step, up to what a solver is given: the problem, and in `data.impulse`
@@ -150,6 +154,7 @@ TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const 
                             Data& data) {
     kept_ = stored_ = false;
     require_shapes(system);
+    system.require_obstacles_in_place();
     before_.keep(system.bodies);
     time_before_ = system.time();
     kept_ = true;
@@ -224,6 +229,8 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
 }
 
 TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& data) {
+    require_count("bodies after the forces were called", system.bodies.count(),
+                  "the beginning of the step", data.begin.size());
     const std::size_t n = system.bodies.count();
     const bool anticipates = params.scheme == Scheme::gap_anticipating;
     fall_.resize(n);

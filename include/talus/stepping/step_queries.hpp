@@ -3,6 +3,7 @@
 
 #include <talus/assembly/contact_jacobian.hpp>
 #include <talus/core/check.hpp>
+#include <talus/core/input.hpp>
 #include <talus/spatial/twist.hpp>
 #include <talus/stepping/step_data.hpp>
 
@@ -12,13 +13,28 @@
 
 namespace talus {
 
-// What users ask a step about bodies and contacts. Bodies may be named in any order; a body that is
-// in no contact, or is none, has no contacts. O(contacts) each; forces are impulses divided by h.
+// What users ask a step about bodies and contacts. Bodies may be named in any order. A body that
+// the step did not have is refused with input_error. O(contacts) each; forces are impulses divided
+// by h.
+
+namespace detail {
+
+template <int Dim, class Law>
+void require_body(const StepData<Dim, Law>& data, BodyIndex body) {
+    if (body < 0 || static_cast<std::size_t>(body) >= data.end.size())
+        reject("body", body,
+               numbered("an index from 0 below", data.end.size(),
+                        ", the number of bodies that the step had"));
+}
+
+}  // namespace detail
 
 /// Indices of the contacts between two bodies, in the order of the step's contacts.
 template <int Dim, class Law>
 std::vector<std::size_t> contacts_between(const StepData<Dim, Law>& data, BodyIndex one,
                                           BodyIndex other) {
+    detail::require_body(data, one);
+    detail::require_body(data, other);
     std::vector<std::size_t> found;
     for (std::size_t c = 0; c < data.contact_count(); ++c) {
         const ContactKey& key = data.contacts.key[c];
@@ -76,12 +92,15 @@ Wrench<Dim> wrench_impulse_on(const StepData<Dim, Law>& data, BodyIndex body, Co
 /// centre [N m s], world axes.
 template <int Dim, class Law>
 Wrench<Dim> wrench_impulse_on(const StepData<Dim, Law>& data, BodyIndex body) {
+    detail::require_body(data, body);
     return detail::wrench_impulse_on(data, body, [](BodyIndex) { return true; });
 }
 
 /// The part of it that one other body gave.
 template <int Dim, class Law>
 Wrench<Dim> wrench_impulse_between(const StepData<Dim, Law>& data, BodyIndex on, BodyIndex from) {
+    detail::require_body(data, on);
+    detail::require_body(data, from);
     return detail::wrench_impulse_on(data, on, [from](BodyIndex other) { return other == from; });
 }
 

@@ -14,6 +14,7 @@
 #include <talus/law/material_table.hpp>
 #include <talus/law/weighted_mean.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -51,11 +52,15 @@ struct System {
     /// One material: the same law everywhere.
     explicit System(const Law& law) : laws(1, law) {}
 
+    // Bodies and shapes can change between steps, not within one (by a force, a law, a hook), which
+    // has begun without them: input_error.
+
     /// Adds a homogeneous body of the given density [kg/m^Dim]. `pose` places the shape as it was
     /// given; the body's own frame becomes the principal one. `twist` is of the mass centre.
     template <SolidShape<Dim> S>
     BodyIndex add(const S& shape, double density, const Pose<Dim>& pose,
                   const Twist<Dim>& twist = {}, MaterialIndex material = 0) {
+        require_between_steps();
         require_positive("density", density);
         check_material(material);
         const auto principal = in_principal_frame<Dim>(shape);
@@ -68,6 +73,7 @@ struct System {
     template <Shape<Dim> S>
     BodyIndex add(const S& shape, const Inertia<Dim>& inertia, const Pose<Dim>& pose,
                   const Twist<Dim>& twist = {}, MaterialIndex material = 0) {
+        require_between_steps();
         check_material(material);
         return attach(bodies.add(inertia, pose, twist, material), shape);
     }
@@ -77,10 +83,12 @@ struct System {
     template <Shape<Dim> S>
     BodyIndex add_obstacle(const S& shape, PrescribedMotion<Dim> motion = {},
                            MaterialIndex material = 0) {
+        require_between_steps();
         check_material(material);
         const BodyIndex body =
             attach(bodies.add_obstacle(motion.pose(time_), motion.twist(time_), material), shape);
         obstacles.push_back({body, std::move(motion)});
+        placed_.push_back(PlacedState<Dim>::of(bodies, static_cast<std::size_t>(body)));
         return body;
     }
 
@@ -95,6 +103,7 @@ struct System {
     /// if there is no such body.
     template <Shape<Dim> S>
     void set_shape(BodyIndex body, const S& shape) {
+        require_between_steps();
         if (body < 0 || static_cast<std::size_t>(body) >= shapes_.size())
             detail::reject("body", body,
                            detail::numbered("an index from 0 below", shapes_.size(),
@@ -110,7 +119,18 @@ struct System {
     /// Of the places of the obstacles [s].
     double time() const { return time_; }
     /// After the obstacles were put back where they were at another time.
-    void set_time(double t) noexcept { time_ = t; }
+    void set_time(double t) noexcept;
+    /// Throws input_error if an obstacle is not as its motion left it: a place or a velocity
+    /// written into `bodies` would be lost without a word at the next step.
+    void require_obstacles_in_place() const;
+
+    /// Keeps a step from being changed, or begun again, on its way. Throws input_error if one is on
+    /// its way already.
+    void begin_step() {
+        require_between_steps();
+        in_step_ = true;
+    }
+    void end_step() noexcept { in_step_ = false; }
 
     /// The law of a contact: that of the two bodies' materials.
     const Law& law_of(const ContactKey& key) const {
@@ -124,6 +144,7 @@ struct System {
     }
 
   private:
+    void require_between_steps() const;
     void check_material(MaterialIndex material) const;
     BodyIndex attach(BodyIndex body, ShapeType shape);
     void replace_shape(std::size_t body, ShapeType shape);
@@ -132,6 +153,8 @@ struct System {
     static std::uint64_t new_version();
 
     double time_ = 0.0;
+    bool in_step_ = false;
+    std::vector<PlacedState<Dim>> placed_;  // as obstacles
     std::vector<ShapeType> shapes_;
     std::vector<double> bounding_radius_, half_thickness_;
     std::uint64_t shapes_version_ = 0;
@@ -146,7 +169,40 @@ requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::place_obstacles(double t, double reach) {
     for (const Obstacle& obstacle : obstacles)
         place(bodies, static_cast<std::size_t>(obstacle.body), obstacle.motion, t, reach);
+    placed_.resize(obstacles.size());
+    set_time(t);
+}
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::set_time(double t) noexcept {
+    for (std::size_t k = 0; k < std::min(placed_.size(), obstacles.size()); ++k)
+        placed_[k] = PlacedState<Dim>::of(bodies, static_cast<std::size_t>(obstacles[k].body));
     time_ = t;
+}
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::require_obstacles_in_place() const {
+    // A list of obstacles that was written by hand has no record to compare with.
+    if (placed_.size() != obstacles.size()) return;
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        const auto i = static_cast<std::size_t>(obstacles[k].body);
+        if (bodies.is_obstacle(i) && !placed_[k].is_of(bodies, i))
+            detail::reject_motion(i, time_,
+                                  " does not lead to where the body is or to its velocity, which "
+                                  "were changed by hand, but must: change the motion "
+                                  "(System::obstacles)");
+    }
+}
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::require_between_steps() const {
+    if (in_step_)
+        throw input_error(
+            "bodies or shapes were changed, or a step begun, within a step, but must be between "
+            "steps");
 }
 
 template <int Dim, class Law, class ShapeType>
