@@ -4,7 +4,8 @@
 
 A Boost.Test program that reports its cases (BOOST_TEST_REPORT_LEVEL=short) counts as its cases, any
 other test, and a program that died before its report, counts as one. A failed program has at least
-one failure. Exit status 1 when something failed or nothing ran.
+one failure, and so has a test that was to run and did not, unless it says itself that it skips.
+Exit status 1 when something failed or nothing ran.
 """
 import re
 import sys
@@ -16,6 +17,12 @@ def cases(output, word):
     return int(found.group(1)) if found else 0
 
 
+def skips(test):
+    """Whether its program ran and said so (SKIP_RETURN_CODE); a missing program or fixture does not."""
+    skipped = test.find("skipped")
+    return skipped is not None and skipped.get("message", "").startswith("SKIP_")
+
+
 def count(path):
     passed = failed = 0
     for test in xml.parse(path).getroot().iter("testcase"):
@@ -25,6 +32,8 @@ def count(path):
         elif test.get("status") == "fail":
             passed += cases(output, "passed")
             failed += max(1, cases(output, "failed") + cases(output, "aborted"))
+        elif test.get("status") == "notrun" and not skips(test):
+            failed += 1
     return passed, failed
 
 

@@ -109,7 +109,7 @@ std::string known_solvers() {
 /// input_error, one sentence, on anything wrong.
 std::optional<Options> read_options(int argc, char** argv) {
     Options o;
-    double iterations = o.settings.max_iterations;
+    double iterations = -1.0;  // not given
     CLI::App app(
         "Solves contact problems with Coulomb friction from files in FCLib's HDF5 format, from "
         "zero\n"
@@ -119,7 +119,7 @@ std::optional<Options> read_options(int argc, char** argv) {
     app.add_option("FILE", o.files, "problem files")->required();
     app.add_option("--solver", o.solver, known_solvers());
     add_number(app, "--tolerance", o.settings.tolerance, 0, 1, "on the residual (1e-8)");
-    add_number(app, "--iterations", iterations, 0, 1e9, "allowed per problem (10000)");
+    add_number(app, "--iterations", iterations, 0, 1e9, "allowed per problem (the solver's own limit)");
     app.add_option(
         "--json", o.json,
         "file for the same figures; - or /dev/stdout: standard output, the table then goes to "
@@ -133,7 +133,7 @@ std::optional<Options> read_options(int argc, char** argv) {
         throw talus::input_error(std::string(error.what()) +
                                  " (solve_problem --help lists the options)");
     }
-    o.settings.max_iterations = static_cast<int>(iterations);
+    if (iterations >= 0.0) o.settings.max_iterations = static_cast<int>(iterations);
     if (o.json == "-") o.json = "/dev/stdout";
     return o;
 }

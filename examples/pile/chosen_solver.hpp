@@ -33,7 +33,7 @@ class ChosenSolver {
                                                               settings)) {
         default_.params.tolerance = settings.tolerance;
         default_.params.aim = settings.tolerance;  // one accuracy in all steps
-        default_.params.max_iterations = settings.max_iterations;
+        if (settings.max_iterations) default_.params.max_iterations = *settings.max_iterations;
     }
 
     const talus::SolveReport& solve(const talus::ContactProblem<Dim, Law>& problem,

@@ -9,6 +9,10 @@ import unittest
 SCRIPT = pathlib.Path(sys.argv.pop()) / "cmake" / "count_tests.py"
 
 
+NOT_FOUND = '<skipped message="Unable to find executable: /nowhere"/>'
+SKIPS = '<skipped message="SKIP_RETURN_CODE=77"/>'
+
+
 def count(*cases):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "junit.xml"
@@ -29,6 +33,12 @@ class Counting(unittest.TestCase):
 
     def test_a_crash_and_a_script_count_as_one(self):
         self.assertEqual(count(("fail", "Segmentation fault"), ("run", "ok")), ("1 passed, 1 failed", 1))
+
+    def test_what_did_not_run_is_a_failure_unless_it_skips(self):
+        ran = ("run", "ok")
+        self.assertEqual(count(ran, ("notrun", "</system-out>" + NOT_FOUND + "<system-out>")), ("1 passed, 1 failed", 1))
+        self.assertEqual(count(ran, ("notrun", "")), ("1 passed, 1 failed", 1))
+        self.assertEqual(count(ran, ("notrun", "</system-out>" + SKIPS + "<system-out>")), ("1 passed, 0 failed", 0))
 
     def test_no_test_at_all_is_a_failure(self):
         self.assertEqual(count(), ("0 passed, 0 failed", 1))

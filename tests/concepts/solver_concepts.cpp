@@ -6,6 +6,7 @@
 #include <talus/law/rolling_coulomb.hpp>
 #include <talus/law/signorini.hpp>
 #include <talus/law/weighted_mean.hpp>
+#include <talus/solver/any_solver.hpp>
 #include <talus/solver/automatic.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/cones/inexact_interior_point.hpp>
@@ -21,6 +22,24 @@ struct Archetype {
 };
 static_assert(talus::ContactSolver<Archetype, 3, Law>);
 static_assert(!talus::ContactSolver<Archetype, 2, talus::Signorini<2>>);
+
+// What an AnySolver is made of keeps its report: a returned copy would not outlive the call.
+template <class Report>
+struct OfAllForms {
+    talus::SolveReport kept;
+    Report solve(const Problem&, std::span<talus::Vector<3>>) { return kept; }
+    Report solve(talus::DelassusSparse<3>&, std::span<const talus::Vector<3>>, std::span<const Law>,
+                 std::span<talus::Vector<3>>) {
+        return kept;
+    }
+    Report solve(talus::DelassusGlobal<3>&, std::span<const talus::Vector<3>>, std::span<const Law>,
+                 std::span<talus::Vector<3>>) {
+        return kept;
+    }
+    Report report() const { return kept; }
+};
+static_assert(talus::FormsSolver<OfAllForms<const talus::SolveReport&>, 3, Law>);
+static_assert(!talus::FormsSolver<OfAllForms<talus::SolveReport>, 3, Law>);
 
 struct WithoutReport {
     void solve(const Problem&, std::span<talus::Vector<3>>) {}

@@ -155,6 +155,13 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_fast_elsewhere_hides_nothing, D, dimension
     BOOST_TEST(slow.contact == 0.5, boost::test_tools::tolerance(1e-7));
     BOOST_TEST(slow.velocity == 0.5, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(slow.worst_contact == 0U);
+    BOOST_TEST(slow.fastest_contact == 0U);
+    // The worst one by its own scale, and the one that is off by the largest velocity.
+    r[1] -= 10.0 * Vec::Unit(0);
+    const auto both = talus::residual(p, std::span<const Vec>(r));
+    BOOST_TEST(both.worst_contact == 0U);
+    BOOST_TEST(both.fastest_contact == 1U);
+    BOOST_TEST(both.velocity == 10.0, boost::test_tools::tolerance(1e-9));
     r[0] = Vec::Unit(0);
     BOOST_TEST(talus::residual(p, std::span<const Vec>(r)).contact < 1e-12);
 }

@@ -113,6 +113,37 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(factors_take_no_more_memory_than_allowed, D, dimen
     BOOST_CHECK_THROW(factorises(-1.0), talus::input_error);
 }
 
+/// Also not for a proof that nothing solves the problem: a squeezed chain, from impulses beside
+/// which its loads are small.
+BOOST_AUTO_TEST_CASE_TEMPLATE(limits_hold_for_proofs_too, D, dimensions) {
+    constexpr int dim = D::value;
+    constexpr std::size_t n = 200;
+    auto p = stack_of_particles<dim>(std::vector<double>(n, 1.0), Law<dim>{.mu = 0.5});
+    p.inverse_mass.linear[n - 1] = 0.0;
+    for (auto& u : p.free_velocity) u = -talus::Vector<dim>::Unit(0);
+    const auto factorisations = [&](talus::AutomaticParams params) {
+        params.tolerance = 1e-2;
+        std::vector<talus::Vector<dim>> r(n, 1e12 * talus::Vector<dim>::Unit(0));
+        talus::Automatic<dim, Law<dim>> solver(params);
+        const auto& report = solver.solve(p, r);
+        if (params.max_factorizations > 100 && params.max_factor_bytes > 0.0)
+            BOOST_TEST((report.status == talus::SolveStatus::no_solution));
+        int all = 0, by_factors = 0;
+        for (const auto& stage : report.stages) {
+            all += stage.iterations;
+            if (stage.engine != "gauss_seidel" && stage.engine != "anderson" &&
+                stage.engine != "nesterov")
+                by_factors += stage.iterations;
+        }
+        BOOST_TEST(report.iterations == all);
+        return by_factors;
+    };
+    BOOST_TEST(factorisations({}) > 0);
+    BOOST_TEST(factorisations({.max_factorizations = 5}) <= 5);
+    BOOST_TEST(factorisations({.max_factorizations = 0}) == 0);
+    BOOST_TEST(factorisations({.max_factor_bytes = 0.0}) == 0);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(blocks_and_bodies_lead_to_the_same_velocities, D, dimensions) {
     constexpr int dim = D::value;
     RandomBlocks random(81);

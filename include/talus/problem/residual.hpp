@@ -32,6 +32,7 @@ struct Residual {
     /// The largest velocity by which a contact's law is violated [m/s]: times sqrt(1 + mu^2), no
     /// overlap grows faster for the residual's sake.
     double velocity = 0.0;
+    std::size_t fastest_contact = 0;  ///< where that is
     double worst_share = 0.0;  ///< largest error over the root mean square scale of a contact [-]
 
     /// Of `contact` in `relative`.
@@ -112,11 +113,14 @@ class ContactScales {
         island.error = error;
         island.worst = i;
     }
-    /// Fills `contact`, `rounding`, `worst_contact` and `velocity`.
+    /// Fills `contact`, `rounding`, `velocity` and the contacts they are of.
     void judge(Residual& result) const {
         for (const Island& island : island_) {
             const double error = std::sqrt(island.error);
-            result.velocity = std::max(result.velocity, error);
+            if (error > result.velocity) {
+                result.velocity = error;
+                result.fastest_contact = island.worst;
+            }
             const double largest = std::sqrt(island.largest);
             const double v = free_scale(island);
             // Without any load there is no other scale than the impulses' own.

@@ -9,6 +9,7 @@
 
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -16,15 +17,17 @@
 namespace talus {
 
 /// A solver that takes problems in every form: of bodies, as the blocks of W, and as mass and
-/// contact map.
+/// contact map; and that keeps its report, to which it returns a reference.
 template <class S, int Dim, class Law>
 concept FormsSolver = ContactSolver<S, Dim, Law> && std::copyable<S> &&
-    requires(S& solver, DelassusSparse<Dim>& blocks, DelassusGlobal<Dim>& matrices,
+    requires(S& solver, const S& solved, const ContactProblem<Dim, Law>& problem,
+             DelassusSparse<Dim>& blocks, DelassusGlobal<Dim>& matrices,
              std::span<const Vector<Dim>> free_velocity, std::span<const Law> laws,
              std::span<Vector<Dim>> r) {
-    { solver.solve(blocks, free_velocity, laws, r) } -> std::convertible_to<const SolveReport&>;
-    { solver.solve(matrices, free_velocity, laws, r) } -> std::convertible_to<const SolveReport&>;
-    { solver.report() } -> std::convertible_to<const SolveReport&>;
+    { solver.solve(problem, r) } -> std::same_as<const SolveReport&>;
+    { solver.solve(blocks, free_velocity, laws, r) } -> std::same_as<const SolveReport&>;
+    { solver.solve(matrices, free_velocity, laws, r) } -> std::same_as<const SolveReport&>;
+    { solved.report() } -> std::same_as<const SolveReport&>;
 };
 
 /// Any solver, chosen at run time: the Solver of a Simulation, say. Behaves as the solver it was
@@ -103,8 +106,10 @@ class AnySolver {
 
 /// What every solver can be asked.
 struct SolverSettings {
-    double tolerance = 1e-8;     ///< on the residual of problem/residual.hpp [-]
-    int max_iterations = 10000;  ///< sweeps, factorisations...: what the solver counts [-]
+    double tolerance = 1e-8;  ///< on the residual of problem/residual.hpp [-]
+    /// Sweeps, factorisations...: what the solver counts [-]; unset, its own limit. Of a solver
+    /// that counts both, Automatic, each of them is limited.
+    std::optional<int> max_iterations = std::nullopt;
 };
 
 /// A solver as the registry knows it.

@@ -26,7 +26,7 @@ struct AutomaticParams {
     /// On the residual of problem/residual.hpp [-].
     double tolerance = 1e-8;
     /// Sweeps allowed in all [-], not negative. A double sweep counts as two, a product with W in a
-    /// gradient method as one.
+    /// gradient method as one. (A look for a proof that nothing solves the problem adds 64.)
     int max_sweeps = 40000;
     /// Factorisations allowed in all [-], not negative. 0 leaves everything to sweeps.
     int max_factorizations = 1000;
@@ -107,24 +107,20 @@ class Automatic {
         const Residual now =
             measure_.template evaluate<Law>(task.free_velocity, task.laws, task.r,
                                             [&](std::size_t i) { return task.w.velocity(i); });
-        report_.whole = now.whole;
-        report_.contact_error = now.contact;
-        report_.rounding = now.rounding;
-        report_.velocity_error = now.velocity;
-        report_.worst_contact = now.worst_contact;
+        report_.take(now);
         // An engine that went on from impulses of another one took them for a jam's. (What is
         // beyond the tolerance by rounding alone was below it as measured on the way.)
         constexpr double slack = 1.0 + 1e-6;
         if (report_.status == SolveStatus::converged &&
-            now.relative > slack * params.tolerance + Residual::share_of_contact * now.rounding) {
+            now.relative > slack * params.tolerance + Residual::share_of_contact * now.rounding)
             report_.status = SolveStatus::stalled;
-            report_.residual = now.relative;
-        }
     }
 
     template <class T>
     void let_engines_work(T& task) {
         sweeps_left_ = params.max_sweeps;
+        if constexpr (ConeLaw<Law, Dim>)
+            team_.begin(params.tolerance, params.max_factorizations, params.max_factor_bytes);
         passes_ = 0;
         memory_.clear();
         constexpr double untried = 1e9;
@@ -251,8 +247,7 @@ class Automatic {
     template <class T>
     bool take_system(T& task) {
         if (params.max_factorizations == 0) return false;
-        team_.begin(params.tolerance, params.max_factorizations);
-        if (!team_.take(task, start_, measure_, params.max_factor_bytes)) return false;
+        if (!team_.take(task, start_, measure_)) return false;
         constexpr double cost_of_pass = 2.6;  // visits of each contact
         passes_per_factorization_ = team_.factorization_cost() / (cost_of_pass * task.visits);
         return true;
@@ -311,7 +306,7 @@ class Automatic {
     template <class T>
     bool cannot_separate(T& task) {
         if constexpr (ConeLaw<Law, Dim>)
-            return team_.cannot_separate(task, measure_);
+            return team_.cannot_separate(task, measure_, report_);
         else
             return false;
     }

@@ -45,23 +45,22 @@ template <int Dim, ConeLaw<Dim> Law>
 class ConeTeam<Dim, Law> {
   public:
     /// Before a solve: what may be spent on it.
-    void begin(double tolerance, int factorizations) {
+    void begin(double tolerance, int factorizations, double max_bytes) {
         tolerance_ = tolerance;
         factorizations_left_ = factorizations;
+        max_bytes_ = max_bytes;
         polished_at_ = unpolished;
         overlap_proven_ = false;
     }
     /// Takes the problem in, and what its solve began with. False if a contact has no cone, as one
     /// of AnyLaw's may.
     template <class T>
-    bool take(T& task, std::span<const Vector<Dim>> start, ResidualMeasure<Dim>& measure,
-              double max_bytes) {
+    bool take(T& task, std::span<const Vector<Dim>> start, ResidualMeasure<Dim>& measure) {
         auto cones = cones_of<Dim>(task.laws);
         if (!cones) return false;
         measure.template prepare<std::remove_reference_t<decltype(task.w)>, Law>(
             task.w, task.free_velocity, task.laws, start);
         assign(task, std::move(*cones), measure);
-        if (system_.factorization_bytes() > max_bytes) factorizations_left_ = 0;
         return true;
     }
     /// In visits of a contact.
@@ -109,15 +108,25 @@ class ConeTeam<Dim, Law> {
         return overlap_proven_ ||
                (path_broke_off && certificate_.by_sweeps(task.w, task.free_velocity, system_));
     }
-    /// Whether there is a proof for the problem without friction, which is then the one held.
+    /// Whether there is a proof for the problem without friction, which is then the one held. The
+    /// report gets a stage of the factorisations that it took.
     template <class T>
-    bool cannot_separate(T& task, const ResidualMeasure<Dim>& measure) {
+    bool cannot_separate(T& task, const ResidualMeasure<Dim>& measure, SolveReport& report) {
         auto cones = cones_of<Dim>(task.laws);
         if (!cones) return false;
         for (FrictionCone<Dim>& cone : *cones) cone.mu = 0.0;
         assign(task, std::move(*cones), measure);
-        return certificate_.by_sweeps(task.w, task.free_velocity, system_) ||
-               certificate_.by_newton(polish_, system_);
+        if (certificate_.by_sweeps(task.w, task.free_velocity, system_)) return true;
+        if (!may_factorize()) return false;
+        constexpr int usual_steps = 30;
+        const bool proven =
+            certificate_.by_newton(polish_, system_, std::min(usual_steps, factorizations_left_));
+        const int done = polish_.report().iterations;
+        factorizations_left_ -= done;
+        // Its residuals are of another problem.
+        report.iterations += done;
+        report.stages.push_back({"overlap_certificate", done, report.residual});
+        return proven;
     }
 
   private:
@@ -130,6 +139,7 @@ class ConeTeam<Dim, Law> {
             system_.assign(*task.blocks, task.free_velocity, std::move(cones), measure);
         else
             system_.assign(task.bodies(), task.free_velocity, std::move(cones), measure);
+        if (system_.factorization_bytes() > max_bytes_) factorizations_left_ = 0;
     }
 
     template <class Engine>
@@ -157,7 +167,7 @@ class ConeTeam<Dim, Law> {
     OverlapCertificate<Dim> certificate_;
     ConeSystem<Dim> system_;  ///< lent to one engine at a time, with its factors' plan
     Eigen::VectorXd scaled_;  ///< the impulses that engines hand to each other
-    double tolerance_ = 0.0, residual_ = 0.0, polished_at_ = unpolished;
+    double tolerance_ = 0.0, residual_ = 0.0, polished_at_ = unpolished, max_bytes_ = 0.0;
     int factorizations_left_ = 0;
     bool overlap_proven_ = false;  ///< by the proximal engine, in this solve
 };

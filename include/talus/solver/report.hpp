@@ -46,8 +46,9 @@ struct SolveReport {
     double contact_error = 0.0;
     /// What rounding beside impulses that large may hide of that [-].
     double rounding = 0.0;
-    double velocity_error = 0.0;    ///< largest velocity by which a contact violates its law [m/s]
-    std::size_t worst_contact = 0;  ///< the contact that is worst in the scale of its island
+    double velocity_error = 0.0;  ///< largest velocity by which a contact violates its law [m/s]
+    std::size_t fastest_contact = 0;      ///< of that velocity
+    std::size_t worst_contact = 0;        ///< the contact that is worst in the scale of its island
     std::vector<ResidualSample> history;  ///< residuals evaluated on the way, in order
     std::vector<SolveStage> stages;       ///< who did what, where several engines took part
 
@@ -62,6 +63,7 @@ struct SolveReport {
         contact_error = r.contact;
         rounding = r.rounding;
         velocity_error = r.velocity;
+        fastest_contact = r.fastest_contact;
         worst_contact = r.worst_contact;
     }
     /// Adds what an engine did that ended at `end`: its iterations, history and a stage.

@@ -46,11 +46,14 @@ Solver with_settings(SolverSettings settings) {
     Solver solver;
     Own::set(solver.params);
     solver.params.tolerance = settings.tolerance;
-    // Solvers that count sweeps call their limit so.
+    if (!settings.max_iterations) return solver;
+    // Limits are called by what they count.
+    if constexpr (requires { solver.params.max_iterations; })
+        solver.params.max_iterations = *settings.max_iterations;
     if constexpr (requires { solver.params.max_sweeps; })
-        solver.params.max_sweeps = settings.max_iterations;
-    else
-        solver.params.max_iterations = settings.max_iterations;
+        solver.params.max_sweeps = *settings.max_iterations;
+    if constexpr (requires { solver.params.max_factorizations; })
+        solver.params.max_factorizations = *settings.max_iterations;
     return solver;
 }
 template <int Dim, class Law, class Solver, class Own = AsTheyAre>
@@ -115,7 +118,7 @@ std::span<const SolverName> SolverRegistry<Dim, Law>::names() {
 template <int Dim, ContactLaw<Dim> Law>
 AnySolver<Dim, Law> SolverRegistry<Dim, Law>::make(std::string_view name, SolverSettings settings) {
     require_non_negative("tolerance", settings.tolerance);
-    require_non_negative("max_iterations", settings.max_iterations);
+    require_non_negative("max_iterations", settings.max_iterations.value_or(0));
     std::string known;
     // A dozen names: no map.
     for (const auto& entry : detail::registry_entries<Dim, Law>()) {

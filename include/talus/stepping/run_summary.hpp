@@ -58,7 +58,7 @@ struct RunSummary {
         const std::size_t c = data.report.worst_contact;
         note(residual, data.report.residual, data, c);
         note(contact_error, data.report.contact_error, data, c);
-        note(velocity_error, data.report.velocity_error, data, c);
+        note(velocity_error, data.report.velocity_error, data, data.report.fastest_contact);
         drift += data.h * data.report.velocity_error;
         note_travel(system, data);
         const auto half = system.half_thickness();

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -59,7 +60,12 @@ class ConeEngine {
         std::swap(system_, system);
         report_ = {};
         best_residual_ = residual;
-        engine().iterate(best);
+        try {
+            engine().iterate(best);
+        } catch (...) {
+            std::swap(system_, system);
+            throw;
+        }
         std::swap(system_, system);
         report_.residual = best_residual_;
         return best_residual_;

@@ -51,13 +51,12 @@ class OverlapCertificate {
         system.to_scaled(r_, l_);
         return holds(l_, system);
     }
-    /// From 30 steps of Newton's method, an engine with `improve`, also where sweeps take too long.
-    /// `system` must be without friction.
+    /// From some steps of Newton's method, an engine with `improve`, also where sweeps take too
+    /// long. `system` must be without friction.
     template <class Newton>
-    bool by_newton(Newton& newton, System& system) {
+    bool by_newton(Newton& newton, System& system, int steps = 30) {
         const Eigen::VectorXd& q = system.free_velocity();
         l_ = Eigen::VectorXd::Zero(q.size());
-        constexpr int steps = 30;
         newton.params = {.max_iterations = steps, .tolerance = 0.0};
         newton.improve(system, l_, system.residual(l_, q));
         for (std::size_t c = 0; c < system.contact_count(); ++c) {
