@@ -31,8 +31,7 @@ void block_on_incline(double mu) {
     const RunSummary run = sim.run(1.0);
     if (!run.certified()) std::printf("%s\n", to_string(run).c_str());
     std::printf("%dD, mu = %.3f: %s; after 1 s the speed is %.9f m/s, exact %.9f\n", Dim, mu,
-                test.verdict == Verdict::equilibrium ? "can stand" : "must move",
-                system.bodies.velocity[1][0],
+                to_string(test.verdict).data(), system.bodies.velocity[1][0],
                 std::max(0.0, g * (std::sin(slope) - mu * std::cos(slope))));
 }
 

@@ -119,7 +119,8 @@ std::optional<Options> read_options(int argc, char** argv) {
     app.add_option("FILE", o.files, "problem files")->required();
     app.add_option("--solver", o.solver, known_solvers());
     add_number(app, "--tolerance", o.settings.tolerance, 0, 1, "on the residual (1e-8)");
-    add_number(app, "--iterations", iterations, 0, 1e9, "allowed per problem (the solver's own limit)");
+    add_number(app, "--iterations", iterations, 0, 1e9,
+               "allowed per problem (the solver's own limit)");
     app.add_option(
         "--json", o.json,
         "file for the same figures; - or /dev/stdout: standard output, the table then goes to "

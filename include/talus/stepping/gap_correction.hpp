@@ -56,13 +56,16 @@ class GapCorrection {
         detail::make_room(impulse_, data.contact_count());
         impulse_.assign(data.contact_count(), Vector<Dim>::Zero());
         solver_.params = params.solver;
-        solver_.solve(problem_, std::span<Vector<Dim>>(impulse_));
+        report_ = solver_.solve(problem_, std::span<Vector<Dim>>(impulse_));
         displacement_.assign(system.bodies.count(), Twist<Dim>{});
         apply_impulses<Dim>(problem_.jacobian, problem_.inverse_mass, impulse_, displacement_);
         budget_ += earned;  // from here on nothing throws
         displace(system, data);
     }
 
+    /// Of the last displacement problem: where it did not converge, bodies have moved by what was
+    /// found, and what is left is seen to in the next step.
+    const SolveReport& report() const { return report_; }
     /// Dissipated energy not yet spent on lifting [J].
     double budget() const { return budget_; }
 
@@ -119,6 +122,7 @@ class GapCorrection {
     }
 
     double budget_ = 0.0;
+    SolveReport report_;
     ContactProblem<Dim, Signorini<Dim>> problem_;
     GaussSeidel<Dim, Signorini<Dim>> solver_;
     std::vector<Vector<Dim>> impulse_;

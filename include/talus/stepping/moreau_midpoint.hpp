@@ -41,6 +41,8 @@ struct StepParams {
     Scheme scheme = Scheme::midpoint;  ///< the paper's
     /// Gap up to which a contact counts as closed [m], see `closed_gap`. The paper's is 0.
     std::optional<double> contact_tolerance = std::nullopt;
+    /// Whether a contact that `closed_gap` counts as closed may close what is left of its gap.
+    bool gaps_may_close = true;
     /// The paper's is explicit_term, with which a free top gains energy at every step.
     Gyroscopic gyroscopic = Gyroscopic::momentum_preserving;
     /// Widening of the boxes of the broad phase, as a fraction of the mean bounding radius of the
@@ -57,7 +59,10 @@ struct StepParams {
 /// would be lost in the next one, and with it friction and the moments that hold a wall upright.
 /// Rounding of "exactly" placed bodies is far below it. Where loads take a body farther than a
 /// tenth of its half thickness within a step, the upper end does not leave that room: the step is
-/// too large for such bodies.
+/// too large for such bodies. What counts as closed by this rule is told gap / h + u_n in either
+/// scheme: it may close (unless `gaps_may_close` is off), so that errors of the solver do not add
+/// up until it opens. What counts as closed by a contact tolerance is held as it is, the paper's
+/// way.
 inline double closed_gap(const StepParams& params, double half_thickness, double fall) {
     constexpr double of_fall = 0.01, least = 1e-5, most = 1e-3;
     return params.contact_tolerance.value_or(
@@ -334,11 +339,17 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
     for (const ContactKey& key : data.contacts.key) data.problem.laws.push_back(system.law_of(key));
     assemble_velocities<Dim, Law>(data.problem.jacobian, data.begin, data.free, data.problem.laws,
                                   data.problem.free_velocity);
-    if (params.scheme == Scheme::gap_anticipating)
-        for (std::size_t c = 0; c < data.contact_count(); ++c)
-            if (!bounces<Dim>(data.problem.laws[c]))
-                data.problem.free_velocity[c][0] +=
-                    anticipated_velocity(data.contacts.gap[c], data.h);
+    const bool by_rule = !params.contact_tolerance && params.gaps_may_close;
+    if (params.scheme != Scheme::gap_anticipating && !by_rule) return;
+    for (std::size_t c = 0; c < data.contact_count(); ++c) {
+        const double way = anticipated_velocity(data.contacts.gap[c], data.h);
+        if (!(way > 0.0)) continue;
+        // What comes faster than its gap allows is about to bounce.
+        if (bounces<Dim>(data.problem.laws[c]) &&
+            (!by_rule || relative_velocity<Dim>(data.problem.jacobian, c, data.begin)[0] < -way))
+            continue;
+        data.problem.free_velocity[c][0] += way;
+    }
 }
 
 TALUS_OF_STEP::finish(SystemType& system, Data& data) {
@@ -348,6 +359,10 @@ TALUS_OF_STEP::finish(SystemType& system, Data& data) {
         bodies.spin[i] = bodies.rotation[i].spin_body(data.end[i].angular);
     }
     drift(bodies, 0.5 * data.h);
+    for (std::size_t i = 0; i < bodies.count(); ++i)
+        if (!bodies.position[i].allFinite())
+            require_finite(detail::numbered("position after the step of body", i),
+                           bodies.position[i]);
     system.place_obstacles(data.t_end());
 }
 

@@ -29,9 +29,12 @@ struct RunSummary {
 
     std::int64_t steps = 0;
     std::int64_t missed = 0;  ///< steps whose solver did not converge
-    Worst residual;           ///< of SolveReport [-]
-    Worst contact_error;      ///< of SolveReport: at the worst contact, in its own scale [-]
-    Worst velocity_error;     ///< largest velocity by which a contact violated its law [m/s]
+    /// Steps whose solver met its tolerance but not what it aims at beyond (DefaultSolver): many of
+    /// them do not harm what flows; what stands by little may creep.
+    std::int64_t short_of_aim = 0;
+    Worst residual;        ///< of SolveReport [-]
+    Worst contact_error;   ///< of SolveReport: at the worst contact, in its own scale [-]
+    Worst velocity_error;  ///< largest velocity by which a contact violated its law [m/s]
     /// The sum over all steps of h times the worst velocity error [m]: times sqrt(1 + mu^2), no
     /// overlap has grown by more for want of accuracy. A bound, and far above what comes of it
     /// where the worst contact is another one in each step: it is told, `overlap` is judged.
@@ -55,6 +58,7 @@ struct RunSummary {
     void record(const System<Dim, Law, ShapeType>& system, const StepData<Dim, Law>& data) {
         ++steps;
         if (data.report.status != SolveStatus::converged) ++missed;
+        if (data.report.short_of_aim) ++short_of_aim;
         const std::size_t c = data.report.worst_contact;
         note(residual, data.report.residual, data, c);
         note(contact_error, data.report.contact_error, data, c);
@@ -128,15 +132,21 @@ inline std::string to_string(const RunSummary& run) {
                 " between bodies " + std::to_string(worst.a) + " and " + std::to_string(worst.b);
         return text;
     };
-    std::string text = std::to_string(run.steps) + " steps, " + std::to_string(run.missed) +
+    std::string text = (run.certified() ? "certified: " : "not certified: ") +
+                       std::to_string(run.steps) + " steps, " + std::to_string(run.missed) +
                        " missed the tolerance";
+    if (run.short_of_aim > 0)
+        text += ", " + std::to_string(run.short_of_aim) + " met it short of the solver's aim";
     if (run.residual.value > 0.0)
         text += "; worst residual " + detail::text_of(run.residual.value) + ", worst contact " +
                 at(run.contact_error);
     if (run.drift > 0.0)
         text += "; errors of velocity add up to " + detail::text_of(run.drift) + " m";
     if (run.overlap.value > 0.0)
-        text += "; deepest overlap, of half the thinner body, " + at(run.overlap);
+        text += "; deepest overlap, of half the thinner body, " + at(run.overlap) +
+                (run.overlap.value > RunSummary::deepest_overlap
+                     ? ", but must be at most " + detail::text_of(RunSummary::deepest_overlap)
+                     : "");
     if (run.travel.value > 1.0)
         text += "; went too far in one step to be sure to meet, of their thicknesses, " +
                 at(run.travel);

@@ -47,8 +47,12 @@ class Simulation {
                   "Types::Solver must be a ContactSolver for Types::Law");
     static_assert(BroadPhase<Broad, Dim>, "Types::BroadPhase must be a BroadPhase");
 
+    static_assert(Shape<ShapeType, Dim>, "Types::Shape must be a Shape");
     using SystemType = System<Dim, Law, ShapeType>;
     using Data = StepData<Dim, Law>;
+    static_assert(StepHooks<Hooks, SystemType, Data>, "Types::Hooks must be StepHooks");
+    static_assert(PositionCorrection<Correction, SystemType, Data>,
+                  "Types::GapCorrection must be a PositionCorrection");
 
     /// Throws input_error if a setting is out of range.
     explicit Simulation(SystemType system, SimulationParams params = {},

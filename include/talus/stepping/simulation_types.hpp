@@ -37,8 +37,15 @@ struct NoGapCorrection {
     void apply(SystemType&, Data&) {}
 };
 
+/// What corrects positions after a step, which has the settings it finds valid.
+template <class C, class SystemType, class Data>
+concept PositionCorrection = requires(C& correction, SystemType& system, Data& data) {
+    correction.require_valid();
+    correction.apply(system, data);
+};
+
 /// The types that a simulation is made of. Derive from it and name those that are to be others; the
-/// rest need not be spelt:
+/// rest need not be spelt (and one whose name is misspelt stays as it was):
 ///
 ///     struct Mine : SimulationTypes<3> {
 ///         using Solver = Automatic<3, Law>;
@@ -51,7 +58,7 @@ requires SpaceDimension<Dim>
 struct SimulationTypes {
     using Law = DefaultLaw<Dim>;               ///< a ContactLaw: of every contact
     using Shape = AnyShape<Dim>;               ///< of every body; AnyShapeOf for a list of your own
-    using Solver = DefaultSolver;              ///< a ContactSolver for that law
+    using Solver = DefaultSolver;              ///< or a ContactSolver for that law
     using BroadPhase = HierarchicalGrid<Dim>;  ///< a BroadPhase
     using Hooks = NoHooks;                     ///< called between the stages (step_hooks.hpp)
     using GapCorrection = NoGapCorrection;     ///< or GapCorrection<Dim> (gap_correction.hpp)

@@ -6,7 +6,8 @@ namespace talus {
 /// Places between the stages of a step where a user's code may look at, or change, what the step is
 /// about to go on with: to study a variant of the method, or to break it on purpose and see which
 /// check notices. Each is given the system (a System) and the step's data (a StepData). Derive from
-/// this and hide the ones you want; what is not hidden costs nothing.
+/// this and hide the ones you want; what is not hidden costs nothing. (A name that is misspelt
+/// hides nothing, and is not called.)
 struct NoHooks {
     /// Free bodies at q_mid with u_begin, obstacles at t_mid; `data.begin` filled. Before forces
     /// and gaps.
@@ -33,5 +34,18 @@ struct NoHooks {
     template <class SystemType, class Data>
     void finished(SystemType&, Data&) {}
 };
+
+/// What a step calls between its stages. (One requirement each, so that a refusal names the first
+/// that is not met.)
+template <class H, class SystemType, class Data>
+concept StepHooks = requires(H& h, SystemType& system, Data& data) {
+    h.at_midpoint(system, data);
+}
+&&requires(H& h, SystemType& system, Data& data) { h.matrices_known(system, data); }
+&&requires(H& h, SystemType& system, Data& data) { h.forces_known(system, data); }
+&&requires(H& h, SystemType& system, Data& data) { h.problem_known(system, data); }
+&&requires(H& h, SystemType& system, Data& data) { h.solved(system, data); }
+&&requires(H& h, SystemType& system, Data& data) { h.velocities_known(system, data); }
+&&requires(H& h, SystemType& system, Data& data) { h.finished(system, data); };
 
 }  // namespace talus

@@ -243,6 +243,8 @@ void AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper) {
         report_.note(report_.iterations, best_.relative, history_limit);
     }
     if (report_.residual <= params.tolerance) report_.status = SolveStatus::converged;
+    report_.short_of_aim =
+        report_.status == SolveStatus::converged && report_.residual > params.aim;
 }
 
 template <int Dim, ContactLaw<Dim> Law>
@@ -265,7 +267,7 @@ void AcceleratedGaussSeidel<Dim, Law>::iterate(Sweeper& sweeper) {
     for (int round = 0;; ++round) {
         if (run(sweeper, Way::own, params.patience)) return;
         if (round == 0 && best_.relative > 1.0) {
-            // The start has led nowhere: none is as good. (Not before: a jam that is remembered
+            // The start has led nowhere: zero is as good. (Not before: a jam that is remembered
             // may look as bad in the scale of its loads, and yet be what holds.)
             own_y_.assign(sweeper.r.size(), Vector<Dim>::Zero());
             start_from(own_y_);
