@@ -734,6 +734,27 @@ struct AutomaticTypes : talus::SimulationTypes<Dim> {
     using Solver = talus::Automatic<Dim, talus::DefaultLaw<Dim>>;
 };
 
+// On a steep cone impulses without any friction may look nearly right: the block slid twice as far.
+BOOST_AUTO_TEST_CASE_TEMPLATE(steep_friction_stops_a_fast_block, D, dimensions) {
+    constexpr int Dim = D::value;
+    for (const double mu : {1.0, 30.0, 300.0, 1000.0}) {
+        constexpr double v = 10.0;
+        const double way = v * v / (2.0 * mu * g), h = 0.01 * v / (mu * g);
+        talus::Simulation<Dim> sim(law<Dim>(mu), {.h = h});
+        auto& system = sim.system();
+        system.gravity = -g * up<Dim>();
+        system.add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
+        // It does not turn.
+        constexpr double never = std::numeric_limits<double>::infinity();
+        system.add(talus::Ball<Dim>(0.1), talus::Inertia<Dim>{1.0, W<Dim>::Constant(never)},
+                   talus::Pose<Dim>{0.1 * up<Dim>(), {}}, {v * V<Dim>::Unit(0), W<Dim>::Zero()});
+        const auto run = sim.run(150 * h);
+        BOOST_TEST(run.missed == 0, to_string(run));
+        BOOST_TEST(system.bodies.position[1][0] == way, boost::test_tools::tolerance(0.02));
+        BOOST_TEST(system.bodies.velocity[1].norm() < 1e-3);
+    }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_step_that_ends_nowhere_is_refused, D, dimensions) {
     constexpr int Dim = D::value;
     talus::Simulation<Dim> sim(law<Dim>(0.3), {.h = 1e300});

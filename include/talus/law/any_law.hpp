@@ -35,6 +35,10 @@ requires(sizeof...(Laws) > 0) struct AnyLaw {
         return std::visit([&](const auto& l) { return Vector<Rows>(l.natural_map(u, r, rho)); },
                           law);
     }
+    double steep_error(const Vector<Rows>& u, const Vector<Rows>& r, double rho) const {
+        return std::visit([&](const auto& l) { return talus::steep_error<Rows>(l, u, r, rho); },
+                          law);
+    }
     /// The shift of the chosen law; zero for one without restitution.
     Vector<Rows> restitution_shift(const Vector<Rows>& u_begin) const {
         return std::visit(

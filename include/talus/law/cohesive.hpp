@@ -48,6 +48,9 @@ struct Cohesive {
     Vector<Rows> natural_map(const Vector<Rows>& u, const Vector<Rows>& r, double rho) const {
         return lowered(law.natural_map(u, raised(r), rho));
     }
+    double steep_error(const Vector<Rows>& u, const Vector<Rows>& r, double rho) const {
+        return talus::steep_error<Rows>(law, u, raised(r), rho);
+    }
     /// That of `law`, where it has one: restitution shifts velocities, cohesion impulses.
     Vector<Rows> restitution_shift(const Vector<Rows>& u_begin) const requires
         RestitutionLaw<Law, Rows> {

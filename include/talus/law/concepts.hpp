@@ -45,6 +45,16 @@ concept RestitutionLaw = ContactLaw<L, Rows> &&
     { law.restitution_shift(u_begin) } -> std::convertible_to<Vector<Rows>>;  // [m/s]
 };
 
+/// What the natural map hides of the error of r beside u: of a law that says so by a member
+/// `steep_error` (FrictionCone), otherwise 0 [N s].
+template <int Rows, class Law>
+double steep_error(const Law& law, const Vector<Rows>& u, const Vector<Rows>& r, double rho) {
+    if constexpr (requires { law.steep_error(u, r, rho); })
+        return law.steep_error(u, r, rho);
+    else
+        return 0.0;
+}
+
 /// Whether the rows after the tangents are rolling components: laws say so by a member
 /// `rolling_rows`, adaptors pass on what they hold. Such a law belongs to no ContactJacobian, which
 /// has none of these rows.

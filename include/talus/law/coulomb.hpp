@@ -33,6 +33,9 @@ struct Coulomb {
     Vector<Dim> natural_map(const Vector<Dim>& u, const Vector<Dim>& r, double rho) const {
         return FrictionCone<Dim>{mu}.project(r - rho * de_saxce_corrected<Dim>(u, mu));
     }
+    double steep_error(const Vector<Dim>& u, const Vector<Dim>& r, double rho) const {
+        return friction_cone().steep_error(u, r, rho);
+    }
     FrictionCone<Dim> friction_cone() const { return {mu}; }
     /// Throws input_error naming `item` unless mu is finite and not negative.
     void require_valid(std::string_view item) const {

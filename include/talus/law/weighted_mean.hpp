@@ -47,6 +47,9 @@ struct WeightedMean {
     Vector<Rows> natural_map(const Vector<Rows>& u, const Vector<Rows>& r, double rho) const {
         return law.natural_map(u, r, rho);
     }
+    double steep_error(const Vector<Rows>& u, const Vector<Rows>& r, double rho) const {
+        return talus::steep_error<Rows>(law, u, r, rho);
+    }
     /// That of `law`: the restitution shift is in the free velocity.
     auto friction_cone() const requires SpaceDimension<Rows> { return cone_of<Rows>(law); }
     /// Throws input_error naming `item` unless both restitutions lie in [0, 1] and `law` is valid.

@@ -29,8 +29,8 @@ struct Residual {
     /// What the rounding of velocities may make of `contact`, of which as much is not counted [-].
     double rounding = 0.0;
     std::size_t worst_contact = 0;  ///< where that is
-    /// The largest velocity by which a contact's law is violated [m/s]: times sqrt(1 + mu^2), no
-    /// overlap grows faster for the residual's sake.
+    /// The largest velocity by which a contact's law is violated [m/s]: times sqrt(1 + mu^2) or 2,
+    /// whichever is less, no overlap grows faster for the residual's sake.
     double velocity = 0.0;
     std::size_t fastest_contact = 0;  ///< where that is
     double worst_share = 0.0;  ///< largest error over the root mean square scale of a contact [-]
@@ -173,7 +173,7 @@ class ContactScales {
 /// The one measure that every solver is judged by: max(eta, zeta / 10). With u = W r + u_free,
 ///
 ///   eta  = || D^-1/2 (r - f) || / max( || D^-1/2 r ||, || D^1/2 u_free || ),   D = diag(rho_c),
-///   zeta = max_c  | r_c - f_c | / ( rho_c V_c ),
+///   zeta = max_c  max( | r_c - f_c |, s_c ) / ( rho_c V_c ),
 ///
 /// where f_c = natural_map(u_c, r_c, rho_c) of the contact's own exact law and rho_c [kg] is the
 /// effective mass of the contact, Rows / trace(W_cc). Norms of eta are Euclidean over all contacts.
@@ -189,28 +189,31 @@ class ContactScales {
 /// Why zeta beside it. An error of a velocity v costs eta only v sqrt(rho_c): where a light grain
 /// carries a heavy one, rho_c is the light one's, and the heavy one may fall freely with an eta of
 /// the root of the ratio of masses. |r_c - f_c| / rho_c is the velocity by which contact c violates
-/// its law. V_c is the largest such velocity that there would be without any impulse, among the
-/// contacts of its island: those that chains of free bodies connect with it. For bodies at rest
-/// under gravity V is h g, and never less than a thousandth of the largest u_free of the island, so
-/// that contacts which separate by themselves are not judged by nothing; what happens elsewhere,
-/// however fast, hides nothing. (An island in which nothing moves, to 1e-12 of the largest u_free
-/// anywhere, has no scale of its own: V is a thousandth of that. Where V is no more than 4e-11 of
-/// the largest r_c / rho_c that a solve begins with, as in a wedge that stays jammed without loads,
-/// it is what rounding has left of zero, and V is those 4e-11 themselves: a jam must balance to its
-/// last digits. Where V is zero, nothing is loaded at all: it is the largest r_c / rho_c.) What
-/// the rounding of the largest velocity r_c / rho_c of the island, and of the largest of u_free
-/// anywhere, explains, 32 epsilon of them, is not counted as an error; but where V is less than
-/// 4e-11 of that velocity, too little of V is left in its digits, and zeta is at least 10: a body
-/// between obstacles that close on it would have impulses without end, beside which the violation
-/// is no more than a last digit. A tenth of zeta is asked for, since the worst of many contacts is
-/// some way above their mean: in piles at rest zeta is some 400 eta.
+/// its law; with friction above mu = 0.8 the larger of it and of s_c / rho_c, half the violation
+/// that the natural map hides on a steep cone (FrictionCone::steep_error). V_c is the largest of the
+/// first kind that there would be without any impulse, among the contacts of its island: those that
+/// chains of free bodies connect with it. For bodies at rest under gravity V is h g, and never less
+/// than a thousandth of the largest u_free of the island, so that contacts which separate by
+/// themselves are not judged by nothing; what happens elsewhere, however fast, hides nothing. (An
+/// island in which nothing moves, to 1e-12 of the largest u_free anywhere, has no scale of its own:
+/// V is a thousandth of that. Where V is no more than 4e-11 of the largest r_c / rho_c that a solve
+/// begins with, as in a wedge that stays jammed without loads, it is what rounding has left of
+/// zero, and V is those 4e-11 themselves: a jam must balance to its last digits. Where V is zero,
+/// nothing is loaded at all: it is the largest r_c / rho_c.) What the rounding of the largest
+/// velocity r_c / rho_c of the island, and of the largest of u_free anywhere, explains, 32 epsilon
+/// of them, is not counted as an error; but where V is less than 4e-11 of that velocity, too little
+/// of V is left in its digits, and zeta is at least 10: a body between obstacles that close on it
+/// would have impulses without end, beside which the violation is no more than a last digit. A
+/// tenth of zeta is asked for, since the worst of many contacts is some way above their mean: in
+/// piles at rest zeta is some 400 eta.
 ///
 /// What it means for motion. A contact's overlap grows by no more than (10 tolerance + 2e-4) V h
-/// sqrt(1 + mu^2) in a step for want of accuracy, where the 2e-4 are what rounding may explain of
-/// V beside impulses of 2.5e10 times V (`rounding` says how much it is; more only where something
-/// elsewhere is faster than that): at rest, where V = g h, by some 1e-3 g h^2 at a tolerance of
-/// 1e-4. A contact of an island that something fast has hit is judged in the scale of that: it may
-/// be left to fall freely for a step where its g h is a thousandth of the fastest violation.
+/// min(2, sqrt(1 + mu^2)) in a step for want of accuracy, where the 2e-4 are what rounding may
+/// explain of V beside impulses of 2.5e10 times V (`rounding` says how much it is; more only where
+/// something elsewhere is faster than that): at rest, where V = g h, by some 1e-3 g h^2 at a
+/// tolerance of 1e-4. A contact of an island that something fast has hit is judged in the scale of
+/// that: it may be left to fall freely for a step where its g h is a thousandth of the fastest
+/// violation.
 ///
 /// Conventions. 0/0 is 0. If the scale is 0 and the error is not (a law that attracts), eta and
 /// zeta are 1. A contact with W_cc = 0 (between obstacles) has no effective mass: it gets the Rows
@@ -292,8 +295,10 @@ class ResidualMeasure {
             const double share = off.squaredNorm() / rho_[i] + 0.0 * u.sum();
             sum += share;
             if (share > worst || std::isnan(share)) worst = share;
-            if (by_contacts)
-                scales_.see(i, share / rho_[i], r[i].squaredNorm() / (rho_[i] * rho_[i]));
+            if (!by_contacts) continue;
+            const double steep = steep_error<Rows>(laws[i], u, r[i], rho_[i]) / rho_[i];
+            scales_.see(i, std::max(share / rho_[i], steep * steep),
+                        r[i].squaredNorm() / (rho_[i] * rho_[i]));
         }
         const double scale = this->scale(free_velocity, r);
         if (sum != 0.0 || !std::isfinite(scale)) {

@@ -35,9 +35,10 @@ struct RunSummary {
     Worst residual;        ///< of SolveReport [-]
     Worst contact_error;   ///< of SolveReport: at the worst contact, in its own scale [-]
     Worst velocity_error;  ///< largest velocity by which a contact violated its law [m/s]
-    /// The sum over all steps of h times the worst velocity error [m]: times sqrt(1 + mu^2), no
-    /// overlap has grown by more for want of accuracy. A bound, and far above what comes of it
-    /// where the worst contact is another one in each step: it is told, `overlap` is judged.
+    /// The sum over all steps of h times the worst velocity error [m]: times sqrt(1 + mu^2), or 2
+    /// if that is less, no overlap has grown by more for want of accuracy. A bound, and far above
+    /// what comes of it where the worst contact is another one in each step: it is told, `overlap`
+    /// is judged.
     double drift = 0.0;
     /// Deepest overlap as a fraction of half the thickness of the thinner body
     /// (System::half_thickness; of discs and balls: the radius) [-].

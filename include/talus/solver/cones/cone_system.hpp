@@ -236,7 +236,9 @@ double ConeSystem<Dim>::residual(const Vec& r, const Vec& u) const {
         const double error = (rc - cones_[c].project(rc - corrected)).squaredNorm();
         sum += error;
         const double mass = scale_[c] * scale_[c];
-        if (by_contacts) islands_.see(c, error / mass, rc.squaredNorm() / mass);
+        if (!by_contacts) continue;
+        const double steep = cones_[c].steep_error(u.template segment<Dim>(first(c)), rc, 1.0);
+        islands_.see(c, std::max(error, steep * steep) / mass, rc.squaredNorm() / mass);
     }
     // 0 / 0 is solved; a problem at rest without impulses has no scale to be wrong by.
     const double scale = std::max(r.norm(), q_.norm());
