@@ -3,10 +3,12 @@
 
 /// What programs of rigid bodies are written with: shapes, laws, simulations with Gauss-Seidel, the
 /// equilibrium test, measures. For examples and short programs; library headers include what they
-/// use. Apart, since few programs need them and they cost as much again to compile: the solvers
-/// that treat all contacts at once (solver/automatic.hpp, solver/any_solver.hpp), problems given by
-/// matrices (problem/matrix_problem.hpp), correction of positions (stepping/gap_correction.hpp),
-/// and the folders sample and io.
+/// use. Apart, since few programs need them and they cost more than as much again to compile: the
+/// solvers that treat all contacts at once (solver/automatic.hpp, solver/cones, solver/oracle) and
+/// those by name (solver/any_solver.hpp, solver/solver_registry.hpp), problems given by matrices
+/// (problem/matrix_problem.hpp), rolling friction, which only these can have
+/// (law/rolling_coulomb.hpp), correction of positions (stepping/gap_correction.hpp), and the folders
+/// sample and io.
 #include <talus/collision/brute_force.hpp>
 #include <talus/core/version.hpp>
 #include <talus/law/any_law.hpp>

@@ -99,9 +99,14 @@ class Tree:
                 self.report(folder, 0, "folder unknown to the layering table")
             if not (folder / "README.md").exists():
                 self.report(folder, 0, "folder without README.md")
-            headers = len(list(folder.glob("*.hpp")))
-            if headers > MOST_HEADERS:
-                self.report(folder, 0, f"{headers} headers in one room, more than {MOST_HEADERS}")
+            headers = sorted(folder.glob("*.hpp"))
+            if len(headers) > MOST_HEADERS:
+                self.report(folder, 0, f"{len(headers)} headers in one room, more than {MOST_HEADERS}")
+            page = folder / "README.md"
+            words = set(re.findall(r"\w+", page.read_text())) if page.exists() else set()
+            for header in headers:
+                if page.exists() and header.stem not in words:
+                    self.report(header, 0, "not named on the folder's page")
         for path in sorted(self.include.rglob("*.hpp")):
             self.check_header(path)
         for part in ("include", "tests", "examples", "bench", "validation"):

@@ -11,7 +11,7 @@ import rules  # noqa: E402
 HEAD = "// SPDX-License-Identifier: BSL-1.0\n#pragma once\n"
 
 
-def violations(name, text, head=HEAD, bib="@book{Moreau2000,\n}\n", readme=True):
+def violations(name, text, head=HEAD, bib="@book{Moreau2000,\n}\n", readme=True, named=True):
     """What the rules say of a tree whose only header is include/talus/`name`."""
     with tempfile.TemporaryDirectory() as root:
         include = pathlib.Path(root) / "include" / "talus"
@@ -20,7 +20,7 @@ def violations(name, text, head=HEAD, bib="@book{Moreau2000,\n}\n", readme=True)
         path.write_text(head + text)
         if readme:
             for folder in path.relative_to(include).parents[:-1]:
-                (include / folder / "README.md").write_text("")
+                (include / folder / "README.md").write_text(path.stem if named else "")
         (include / "references.bib").write_text(bib)
         return rules.Tree(root).check()
 
@@ -57,11 +57,14 @@ class Rules(unittest.TestCase):
         with tempfile.TemporaryDirectory() as root:
             law = pathlib.Path(root) / "include" / "talus" / "law"
             law.mkdir(parents=True)
-            (law / "README.md").write_text("")
+            (law / "README.md").write_text(" ".join(f"`a{k}`" for k in range(19)))
             for k in range(19):
                 (law / f"a{k}.hpp").write_text(HEAD)
             self.assertEqual(rules.Tree(root).check(),
                              ["include/talus/law:0: 19 headers in one room, more than 18"])
+
+    def test_headers_that_their_page_leaves_out_are_reported(self):
+        self.rejects("law/a.hpp", "", 0, "page", named=False)
 
     def test_the_umbrella_is_not_for_headers(self):
         self.rejects("law/a.hpp", "#include <talus/talus.hpp>\n", 3, "law -> talus.hpp")

@@ -208,6 +208,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_verdict_needs_an_accurate_solver, D, dimensions)
     BOOST_TEST(to_string(report.verdict) == "undecided");
     // The error of a few contacts adds up along a tower: what is left of it is no motion.
     auto tower = boxes_on_a_floor<Dim>(Dim == 2 ? 20 : 8);
+    const auto stands = talus::equilibrium(tower.system());
+    BOOST_TEST((stands.verdict == talus::Verdict::equilibrium), stands.reason);
     for (const int sweeps : {100, 300, 1000, 3000}) {
         talus::GaussSeidel<Dim, talus::DefaultLaw<Dim>> few(
             {.max_sweeps = sweeps, .tolerance = 0.0});

@@ -20,6 +20,7 @@ SECTIONS = {
     "F": "Lagrangian systems with few degrees of freedom",
     "G": "Granular assemblies",
     "K": "Cohesion",
+    "U": "A case of your own",
 }
 
 VERDICTS = ("passed", "failed", "error", "not run")  # the last one is that of a case without a result

@@ -333,8 +333,10 @@ const SolveReport& Automatic<Dim, Law>::solve(const ContactProblem<Dim, Law>& pr
                                               std::span<Vector<Dim>> r) {
     const auto solve_with = [&](auto& w) -> const SolveReport& {
         return run(Task<std::remove_reference_t<decltype(w)>>{
-            w, problem.free_velocity, problem.laws, r, static_cast<double>(problem.contact_count()),
-            nullptr, [&problem] { return BodyMap<Dim>(problem.jacobian, problem.inverse_mass); }});
+            {w, problem.free_velocity, problem.laws, r},
+            static_cast<double>(problem.contact_count()),
+            nullptr,
+            [&problem] { return BodyMap<Dim>(problem.jacobian, problem.inverse_mass); }});
     };
     return bodies_.with(problem.jacobian, problem.inverse_mass, solve_with);
 }
@@ -343,7 +345,7 @@ template <int Dim, ContactLaw<Dim> Law>
 const SolveReport& Automatic<Dim, Law>::solve(DelassusSparse<Dim>& w,
                                               std::span<const Vector<Dim>> free_velocity,
                                               std::span<const Law> laws, std::span<Vector<Dim>> r) {
-    return run(Task<DelassusSparse<Dim>>{w, free_velocity, laws, r, sweep_visits(w), &w});
+    return run(Task<DelassusSparse<Dim>>{{w, free_velocity, laws, r}, sweep_visits(w), &w});
 }
 
 template <int Dim, ContactLaw<Dim> Law>
@@ -352,8 +354,10 @@ const SolveReport& Automatic<Dim, Law>::solve(DelassusGlobal<Dim>& w,
                                               std::span<const Law> laws, std::span<Vector<Dim>> r) {
     DelassusSparse<Dim>& blocks = w.assembled();
     if (w.bodies() == nullptr) return solve(blocks, free_velocity, laws, r);
-    return run(Task<DelassusSparse<Dim>>{blocks, free_velocity, laws, r, sweep_visits(blocks),
-                                         nullptr, [&w] { return *w.bodies(); }});
+    return run(Task<DelassusSparse<Dim>>{
+        {blocks, free_velocity, laws, r}, sweep_visits(blocks), nullptr, [&w] {
+            return *w.bodies();
+        }});
 }
 
 }  // namespace talus

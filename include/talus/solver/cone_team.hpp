@@ -9,6 +9,7 @@
 #include <talus/solver/cones/projected_gradient.hpp>
 #include <talus/solver/cones/proximal_newton.hpp>
 #include <talus/solver/report.hpp>
+#include <talus/solver/sweeps/sweep_kernel.hpp>
 
 #include <Eigen/Core>
 
@@ -24,11 +25,7 @@ namespace talus {
 
 /// A problem that Automatic solves, and its impulses.
 template <int Dim, ContactLaw<Dim> Law, class W>
-struct AutomaticTask {
-    W& w;  ///< for sweeps
-    std::span<const Vector<Dim>> free_velocity;
-    std::span<const Law> laws;
-    std::span<Vector<Dim>> r;
+struct AutomaticTask : SweepTask<Dim, Law, W> {
     double visits;  ///< of contacts in a sweep
     /// What a ConeSystem takes of W: the bodies it is made of, or its blocks where none are known.
     const DelassusSparse<Dim>* blocks = nullptr;
