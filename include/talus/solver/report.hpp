@@ -49,7 +49,8 @@ struct SolveReport {
     double velocity_error = 0.0;  ///< largest velocity by which a contact violates its law [m/s]
     std::size_t fastest_contact = 0;  ///< of that velocity
     std::size_t worst_contact = 0;    ///< the contact that is worst in the scale of its island
-    /// Converged, but above what the solver aims at beyond its tolerance (AcceleratedGaussSeidel).
+    /// Whether the residual is above what the solver aims at beyond its tolerance, if it does
+    /// (AcceleratedGaussSeidel).
     bool short_of_aim = false;
     std::vector<ResidualSample> history;  ///< residuals evaluated on the way, in order
     std::vector<SolveStage> stages;       ///< who did what, where several engines took part

@@ -58,8 +58,10 @@ struct RunSummary {
     template <int Dim, class Law, class ShapeType>
     void record(const System<Dim, Law, ShapeType>& system, const StepData<Dim, Law>& data) {
         ++steps;
-        if (data.report.status != SolveStatus::converged) ++missed;
-        if (data.report.short_of_aim) ++short_of_aim;
+        if (data.report.status != SolveStatus::converged)
+            ++missed;
+        else if (data.report.short_of_aim)
+            ++short_of_aim;
         const std::size_t c = data.report.worst_contact;
         note(residual, data.report.residual, data, c);
         note(contact_error, data.report.contact_error, data, c);

@@ -66,9 +66,8 @@ struct AcceleratedGaussSeidelParams {
 /// `effort`. The best impulses measured are returned; `iterations` is the work done.
 ///
 /// Cost per iteration: two sweeps and half a sweep for the start at y; Anderson adds 3 depth
-/// products of vectors. Its memory, 2 depth + 4 impulses per contact, is kept in reserve also for
-/// the tries of the other way (address space, which costs nothing until then). `w` is left
-/// following the impulses returned.
+/// products of vectors. Its memory, 2 depth + 4 impulses per contact, is reserved also for the
+/// tries of the other way. `w` is left following the impulses returned.
 template <int Dim, ContactLaw<Dim> Law>
 class AcceleratedGaussSeidel {
   public:
@@ -242,9 +241,8 @@ void AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper) {
         report_.take(best_);
         report_.note(report_.iterations, best_.relative, history_limit);
     }
-    const bool converged = report_.residual <= params.tolerance;
-    if (converged) report_.status = SolveStatus::converged;
-    report_.short_of_aim = converged && report_.residual > params.aim;
+    if (report_.residual <= params.tolerance) report_.status = SolveStatus::converged;
+    report_.short_of_aim = report_.residual > params.aim;
 }
 
 template <int Dim, ContactLaw<Dim> Law>
