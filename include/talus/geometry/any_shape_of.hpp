@@ -2,7 +2,7 @@
 #pragma once
 
 #include <talus/core/check.hpp>
-#include <talus/geometry/concepts.hpp>
+#include <talus/geometry/convex_core.hpp>
 
 #include <concepts>
 #include <type_traits>
@@ -56,6 +56,11 @@ class AnyShapeOf {
     }
     AnyShapeOf placed(const Pose<Dim>& pose) const {
         return std::visit([&](const auto& s) { return AnyShapeOf(s.placed(pose)); }, held_);
+    }
+
+    /// Of the shape that is held [m].
+    double half_thickness() const {
+        return std::visit([](const auto& s) { return talus::half_thickness<Dim>(s); }, held_);
     }
 
   private:

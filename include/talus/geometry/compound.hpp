@@ -7,6 +7,8 @@
 #include <talus/geometry/capsule.hpp>
 #include <talus/geometry/convex_polytope.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -78,7 +80,12 @@ class CompoundOf {
         require_in("child count of the compound", static_cast<double>(children.size()), 1.0,
                    static_cast<double>(max_child_count));
         Data data;
-        for (const Placed& c : children) data.children.push_back(c.shape.placed(c.pose));
+        for (const Placed& c : children) {
+            data.children.push_back(c.shape.placed(c.pose));
+            // Before it is turned: a box of what tells no more is thin in the child's own frame.
+            data.half_thickness =
+                std::min(data.half_thickness, talus::half_thickness<Dim>(c.shape));
+        }
         data.mass = mass_properties ? *mass_properties : sum(data.children);
         data_ = share(std::move(data));
     }
@@ -94,10 +101,13 @@ class CompoundOf {
         return box;
     }
     MassProperties<Dim> mass_properties() const { return data_->mass; }
+    /// Of the thinnest child, each in its own frame [m].
+    double half_thickness() const { return data_->half_thickness; }
     CompoundOf placed(const Pose<Dim>& pose) const {
         Data data;
         for (const Child& c : children()) data.children.push_back(c.placed(pose));
         data.mass = talus::placed(data_->mass, pose);
+        data.half_thickness = data_->half_thickness;
         CompoundOf result = *this;
         result.data_ = share(std::move(data));
         return result;
@@ -109,6 +119,7 @@ class CompoundOf {
         std::vector<Child> children;
         std::vector<BoundingBall<Dim>> bounds;
         MassProperties<Dim> mass;
+        double half_thickness = std::numeric_limits<double>::infinity();
     };
 
     static std::shared_ptr<const Data> share(Data&& data) {

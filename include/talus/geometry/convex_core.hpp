@@ -4,6 +4,7 @@
 #include <talus/core/cross.hpp>
 #include <talus/core/input.hpp>
 #include <talus/geometry/aabb.hpp>
+#include <talus/geometry/concepts.hpp>
 #include <talus/spatial/pose.hpp>
 
 #include <algorithm>
@@ -192,6 +193,41 @@ Aabb<Dim> core_aabb(const CoreView<Dim>& core, const Pose<Dim>& pose) {
 template <int Dim>
 Vector<Dim> core_support(const CoreView<Dim>& core, const Vector<Dim>& d) {
     return core.vertices[support_index(core, d)] + core.radius * d.normalized();
+}
+
+/// Half the least width of a rounded core [m]: exact in the plane. In space it is the least along
+/// the normals of the faces and the axes of the frame, which is no less than the width, and more
+/// where that is between two edges. O(faces vertices), far less where the box is thin.
+template <int Dim>
+double core_half_thickness(const CoreView<Dim>& core) {
+    if (core.face_count() == 0) return core.radius;
+    const Aabb<Dim> box = core_aabb(core, Pose<Dim>{});
+    double width = (box.high - box.low).minCoeff() - 2.0 * core.radius;
+    for (std::size_t f = 0; f < core.face_count(); ++f) {
+        double depth = 0.0;
+        for (std::size_t i = 0; i < core.vertices.size() && depth < width; ++i)
+            depth = std::max(depth, core.offsets[f] - core.normals[f].dot(core.vertices[i]));
+        width = std::min(width, depth);
+    }
+    return 0.5 * width + core.radius;
+}
+
+/// Half the thickness of a shape at its thinnest part [m]: what it says by a member
+/// `half_thickness()`, which must be positive; of other rounded cores as above; of what tells no
+/// more than its box half the least side of that, in the frame of the shape. Infinite for what has
+/// no other side.
+template <int Dim, Shape<Dim> S>
+double half_thickness(const S& shape) {
+    if constexpr (requires { shape.half_thickness(); }) {
+        const double half = shape.half_thickness();
+        if (!(half > 0.0)) detail::reject("half thickness of the shape", half, "positive");
+        return half;
+    } else if constexpr (CoreShape<S, Dim>) {
+        return core_half_thickness<Dim>(shape.core());
+    } else {
+        const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
+        return 0.5 * (box.high - box.low).minCoeff();
+    }
 }
 
 }  // namespace talus

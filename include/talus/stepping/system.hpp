@@ -96,8 +96,8 @@ struct System {
     std::span<const ShapeType> shapes() const { return shapes_; }
     /// Of each shape about the body's centre; infinite where it has no bound [m].
     std::span<const double> bounding_radius() const { return bounding_radius_; }
-    /// Of each shape: half the least width of its box in the body's frame; infinite for half-spaces
-    /// [m].
+    /// Of each shape at its thinnest part, of compounds the thinnest child
+    /// (talus::half_thickness); infinite for half-spaces [m].
     std::span<const double> half_thickness() const { return half_thickness_; }
     /// Gives a body another shape, in the body's frame; mass and inertia stay. Throws input_error
     /// if there is no such body.
@@ -149,7 +149,6 @@ struct System {
     BodyIndex attach(BodyIndex body, ShapeType shape);
     void replace_shape(std::size_t body, ShapeType shape);
     static double radius_of(const ShapeType& shape);
-    static double half_thickness_of(const ShapeType& shape);
     static std::uint64_t new_version();
 
     double time_ = 0.0;
@@ -220,7 +219,7 @@ requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(BodyI
                                                                            ShapeType shape) {
     const double radius = radius_of(shape);
     bounding_radius_.push_back(radius);
-    half_thickness_.push_back(half_thickness_of(shape));
+    half_thickness_.push_back(talus::half_thickness<Dim>(shape));
     shapes_.push_back(std::move(shape));
     shapes_version_ = new_version();
     if (std::isfinite(radius) && !bodies.is_obstacle(static_cast<std::size_t>(body))) {
@@ -234,7 +233,7 @@ template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::replace_shape(std::size_t body, ShapeType shape) {
     const double radius = radius_of(shape);
-    half_thickness_[body] = half_thickness_of(shape);
+    half_thickness_[body] = talus::half_thickness<Dim>(shape);
     shapes_[body] = std::move(shape);
     const double old = std::exchange(bounding_radius_[body], radius);
     shapes_version_ = new_version();
@@ -251,13 +250,6 @@ double System<Dim, Law, ShapeType>::radius_of(const ShapeType& shape) {
     const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
     return box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()
                          : std::numeric_limits<double>::infinity();
-}
-
-template <int Dim, class Law, class ShapeType>
-requires SpaceDimension<Dim>
-double System<Dim, Law, ShapeType>::half_thickness_of(const ShapeType& shape) {
-    const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
-    return 0.5 * (box.high - box.low).minCoeff();
 }
 
 /// Unlike any given before in this program, as a system may be replaced by another one.
