@@ -24,6 +24,15 @@ requires(Shape<S, Dim> && sizeof...(Others) > 0) struct FirstNoShape<Dim, S, Oth
     : FirstNoShape<Dim, Others...> {
 };
 
+/// As std::visit, for less work of the compiler.
+template <class... Shapes, class Question>
+void ask(const std::variant<Shapes...>& held, const Question& question) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        ((held.index() == I ? question(*std::get_if<I>(&held)) : void()), ...);
+    }
+    (std::index_sequence_for<Shapes...>{});
+}
+
 }  // namespace detail
 
 /// One of a closed list of shapes, chosen at run time; itself a SolidShape, so that a scene of
@@ -40,7 +49,9 @@ class AnyShapeOf {
     const std::variant<Shapes...>& held() const { return held_; }
 
     Aabb<Dim> aabb(const Pose<Dim>& pose) const {
-        return std::visit([&](const auto& s) -> Aabb<Dim> { return s.aabb(pose); }, held_);
+        Aabb<Dim> box;
+        detail::ask(held_, [&](const auto& s) { box = s.aabb(pose); });
+        return box;
     }
     MassProperties<Dim> mass_properties() const {
         return std::visit(
@@ -60,7 +71,9 @@ class AnyShapeOf {
 
     /// Of the shape that is held [m].
     double half_thickness() const {
-        return std::visit([](const auto& s) { return talus::half_thickness<Dim>(s); }, held_);
+        double half = 0.0;
+        detail::ask(held_, [&](const auto& s) { half = talus::half_thickness<Dim>(s); });
+        return half;
     }
 
   private:

@@ -32,7 +32,9 @@ struct BoundingBall {
 template <int Dim, Shape<Dim> S>
 BoundingBall<Dim> bounding_ball(const S& shape) {
     if constexpr (is_any_shape<S>) {
-        return std::visit([](const auto& s) { return bounding_ball<Dim>(s); }, shape.held());
+        BoundingBall<Dim> ball;
+        detail::ask(shape.held(), [&](const auto& s) { ball = bounding_ball<Dim>(s); });
+        return ball;
     } else if constexpr (CoreShape<S, Dim>) {
         const CoreView<Dim> core = shape.core();
         return {core.centre, core.bound};

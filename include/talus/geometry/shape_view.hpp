@@ -110,7 +110,9 @@ inline constexpr ShapeAccess<Dim> shape_access = detail::make_shape_access<Dim, 
 template <int Dim, Shape<Dim> S>
 ShapeView<Dim> view_of(const S& shape) {
     if constexpr (is_any_shape<S>) {
-        return std::visit([](const auto& held) { return view_of<Dim>(held); }, shape.held());
+        ShapeView<Dim> view{};
+        detail::ask(shape.held(), [&](const auto& held) { view = view_of<Dim>(held); });
+        return view;
     } else {
         return {&shape, &shape_access<Dim, S>};
     }
