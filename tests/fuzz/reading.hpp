@@ -110,7 +110,7 @@ void check_mesh(std::string_view bytes, const std::string& file, Parse&& parse) 
         demand_one_sentence(error.what(), file);
         return;
     }
-    demand(!mesh.triangles.empty() || mesh.degenerate_count > 0, "mesh without a triangle");
+    demand(!mesh.triangles.empty(), "mesh without a triangle");
     for (const auto& x : mesh.vertices)
         demand(x.allFinite() && x.cwiseAbs().maxCoeff() <= 1e12, "vertex out of range");
     for (const auto& t : mesh.triangles) {

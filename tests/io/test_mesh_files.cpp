@@ -209,6 +209,23 @@ BOOST_AUTO_TEST_CASE(equal_corners_are_welded) {
     BOOST_TEST(two.degenerate_count == 1u);
 }
 
+BOOST_AUTO_TEST_CASE(a_surface_without_a_triangle_is_refused) {
+    const auto refused = [](auto read, const std::string& text, const std::string& file,
+                            const std::string& count) {
+        check(complaint(read, text), {file, "holds 0 triangles", count, "at least one"});
+    };
+    refused(obj, "v 0 0 0\nv 1 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 2\n", "rock.obj", "all 2 ");
+    refused(obj, "v 0 0 0\nv 0 0 0\nf 1 2 1 2\n", "rock.obj", "all 2 ");
+    const std::string point = with(with(one_triangle, "1 0 0", "0 0 0"), "0 1 0", "0 0 0");
+    refused(stl, point, "rock.stl", "all 1 ");
+    refused(stl, point + point, "rock.stl", "all 2 ");
+    Mesh needle = stl(one_triangle);
+    needle.triangles = {{0, 1, 0}, {1, 1, 1}, {2, 0, 0}};
+    refused(stl, binary(needle), "rock.stl", "all 3 ");
+    needle.triangles.push_back({0, 1, 2});
+    BOOST_TEST(stl(binary(needle)).degenerate_count == 3u);
+}
+
 BOOST_AUTO_TEST_CASE(both_kinds_of_stl_are_told_apart_by_their_bytes) {
     const Mesh one = stl(one_triangle);
     BOOST_TEST(one.triangles.size() == 1u);

@@ -42,7 +42,7 @@ const std::string head =
     "pile 1\ndim 2 shape disc n 2\nbox 0.1 0 0\nmu 0.4 rho 2600 g 9.81 rmean 0.005\n";
 const std::string discs = head + "0.01 0.01 0.005\n0.03 0.01 0.005\n";
 const std::string square =
-    "pile 1\ndim 2 shape polygon n 1\nbox 9 0 0\nmu 0.4 rho 2600 g 9.81 rmean 1\n"
+    "pile 1\ndim 2 shape polygon n 1\nbox 9 0 0\nmu 0.4 rho 2600 g 9.81 rmean 1.414\n"
     "3 3 1.41421356 4 1 1 -1 1 -1 -1 1 -1\n";
 
 /// `text` with its first `from` replaced, which must be there.
@@ -154,6 +154,35 @@ BOOST_AUTO_TEST_CASE(wrong_heads_are_refused) {
     check_refused<2>(with(discs, "rmean 0.005", "rmean 0"), 4, {"rmean", "'0'"});
 }
 
+BOOST_AUTO_TEST_CASE(a_mean_radius_is_between_the_radii) {
+    const std::string mixed = with(discs, "0.03 0.01 0.005", "0.03 0.01 0.002");
+    for (const char* mean : {"0.002", "0.0035", "0.005", "0.00199999", "0.0050001"})
+        BOOST_TEST(complaint<2>(with(mixed, "rmean 0.005", std::string("rmean ") + mean)) == "");
+    for (const char* mean : {"1e6", "0.0051", "0.0019", "1e-9"})
+        check_refused<2>(with(mixed, "rmean 0.005", std::string("rmean ") + mean), 4,
+                         {"rmean [m]", "is ", "[0.002, 0.005]", "smallest", "largest"});
+    check_refused<2>(with(mixed, "rmean 0.005", "rmean 1e6"), 4, {"is 1000000"});
+    // Of three digits, as numbers are often given.
+    BOOST_TEST(complaint<2>(with(square, "rmean 1.414", "rmean 1.41")) == "");
+    check_refused<2>(with(square, "rmean 1.414", "rmean 1.43"), 4,
+                     {"[0.70710678, 1.41421356]", "1 / 2 of the smallest"});
+    // Half the side of a square is meant, for want of a radius.
+    BOOST_TEST(complaint<2>(with(square, "rmean 1.414", "rmean 1")) == "");
+    check_refused<2>(with(square, "rmean 1.414", "rmean 0.7"), 4, {"is 0.7"});
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(few_grains_of_a_broad_law_are_read_back, D, dimensions) {
+    constexpr int Dim = D::value;
+    const talus::UniformRadii law(0.001, 0.009);
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+        for (const std::size_t n : {1u, 2u, 3u}) {
+            const auto scene =
+                talus::random_scene<Dim>({.grain_count = n, .width = 0.1, .seed = seed}, law);
+            BOOST_TEST(complaint<Dim>(talus::scene_text(scene)) == "");
+            BOOST_TEST(complaint<Dim>(talus::scene_text(scene, 9)) == "");
+        }
+}
+
 BOOST_AUTO_TEST_CASE(wrong_grains_are_refused) {
     check_refused<2>(with(discs, "0.03 0.01 0.005\n", ""), 6, {"ends", "grain 2"});
     check_refused<2>(discs + "0.05 0.01 0.005\n", 7, {"after the last grain", "'0.05'"});
@@ -195,7 +224,7 @@ BOOST_AUTO_TEST_CASE(wrong_polygons_are_refused) {
 
 BOOST_AUTO_TEST_CASE(wrong_polyhedra_are_refused) {
     const std::string before =
-        "pile 1\ndim 3 shape polyhedron n 1\nbox 9 9 0\nmu 0.4 rho 2600 g 9.81 rmean 1\n";
+        "pile 1\ndim 3 shape polyhedron n 1\nbox 9 9 0\nmu 0.4 rho 2600 g 9.81 rmean 1.73\n";
     const std::string cube = " 1 1 1 1 1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 -1 -1 1 -1 -1 -1\n";
     const std::string r = "3 3 3 1.7320508 ";
     BOOST_TEST(complaint<3>(before + r + "8" + cube) == "");
@@ -211,11 +240,11 @@ BOOST_AUTO_TEST_CASE(polyhedra_of_few_digits_are_what_was_meant) {
         for (int n = 3; n <= 16; ++n) {
             talus::Scene<3> scene;
             scene.box_size.head<2>() << 9.0, 9.0;
-            scene.density = scene.mean_radius = 1.0;
+            scene.density = 1.0;
             scene.grains.push_back({{4, 4, 4}, 0.0, {}});
             auto& grain = scene.grains[0];
             grain.vertices = hull_tester::turned(hull_tester::prism(n, 0.5, 0.4), turn);
-            grain.radius = talus::bounding_radius<3>(grain.vertices);
+            grain.radius = scene.mean_radius = talus::bounding_radius<3>(grain.vertices);
             std::istringstream text(talus::scene_text(scene, digits));
             const auto again = talus::parse_scene<3>(text, "pile.txt");
             const talus::ConvexPolytope<3> shape(again.grains[0].vertices);

@@ -98,4 +98,21 @@ std::string box_complaint(const Grain<Dim>& grain, const Vector<Dim>& box_size) 
     return {};
 }
 
+/// How the mean radius of a scene that has grains is none of theirs, or nothing. What is meant by
+/// the radius of a shape with corners may be the distance of its sides, half the width of a square:
+/// a regular simplex, which has the farthest corners, reaches Dim times as far.
+template <int Dim>
+std::string mean_radius_complaint(const Scene<Dim>& scene) {
+    constexpr double three_digits = 0.005;  // what they may leave off, of the number
+    const auto [least, most] = std::ranges::minmax_element(scene.grains, {}, &Grain<Dim>::radius);
+    const bool balls = least->is_ball();
+    const double low = balls ? least->radius : least->radius / Dim, high = most->radius;
+    if (scene.mean_radius >= (1.0 - three_digits) * low &&
+        scene.mean_radius <= (1.0 + three_digits) * high)
+        return {};
+    return "is " + text_of(scene.mean_radius) + ", but must be in [" + text_of(low) + ", " +
+           text_of(high) + "], from " + (balls ? "" : "1 / " + std::to_string(Dim) + " of ") +
+           "the smallest radius to the largest";
+}
+
 }  // namespace talus::detail

@@ -115,10 +115,11 @@ Grain<Dim> read_grain(LineReader& in, bool corners, std::size_t index) {
 
 /// Reads a scene from text; `file` is the name that complaints begin with. The format is described
 /// in the README of this folder. Throws input_error, one sentence, when anything is not as it
-/// should be: words, counts, ranges, polygons, grains outside the box, grains that overlap.
+/// should be: words, counts, ranges, polygons, grains outside the box, a mean radius that is not
+/// between those of the grains, grains that overlap.
 template <int Dim>
 Scene<Dim> parse_scene(std::istream& text, const std::string& file) {
-    constexpr std::size_t first_grain_line = 5;
+    constexpr std::size_t mean_radius_line = 4, first_grain_line = 5;
     LineReader in(text, file);
     const detail::SceneHeader header = detail::read_header(in);
     if (header.dim != Dim)
@@ -137,6 +138,8 @@ Scene<Dim> parse_scene(std::istream& text, const std::string& file) {
         scene.grains.push_back(std::move(grain));
     }
     in.expect_end_of_text();
+    if (const std::string complaint = detail::mean_radius_complaint(scene); !complaint.empty())
+        in.fail_at(mean_radius_line, "rmean [m]", complaint);
     if (const auto pair = first_overlap(scene.grains, detail::file_tolerance))
         in.fail_at(first_grain_line + pair->second, "grain " + std::to_string(pair->second + 1),
                    "overlaps grain " + std::to_string(pair->first + 1) + " of line " +

@@ -6,6 +6,7 @@
 #include <talus/sample/lattice.hpp>
 #include <talus/sample/scene.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -37,7 +38,6 @@ const Vertices&, Random&,
     scene.mu = require_non_negative("friction coefficient", params.mu);
     scene.density = require_positive("density", params.density);
     scene.gravity = require_non_negative("gravity [m/s^2]", params.gravity);
-    scene.mean_radius = law.mean();
     const auto places = jittered_lattice<Dim>(random, {.count = params.grain_count,
                                                        .box_size = scene.box_size,
                                                        .largest_radius = law.high_end(),
@@ -47,6 +47,11 @@ const Vertices&, Random&,
         const double radius = law(random);
         scene.grains.push_back({place, radius, vertices(random, radius)});
     }
+    scene.mean_radius = law.mean();
+    if (scene.grains.empty()) return scene;
+    // Few grains of a broad law may all be smaller, or larger, than its mean.
+    const auto [least, most] = std::ranges::minmax_element(scene.grains, {}, &Grain<Dim>::radius);
+    scene.mean_radius = std::clamp(scene.mean_radius, least->radius, most->radius);
     return scene;
 }
 

@@ -27,10 +27,11 @@ requires SpaceDimension<Dim>
 struct Scene {
     /// Sides of the box [m]; the last one is infinite: the box is open at the top.
     Vector<Dim> box_size = Vector<Dim>::Constant(std::numeric_limits<double>::infinity());
-    double mu = 0.0;           ///< friction coefficient of every contact [-]
-    double density = 0.0;      ///< [kg/m^Dim]
-    double gravity = 0.0;      ///< downwards, along minus the last axis [m/s^2]
-    double mean_radius = 0.0;  ///< of the law the radii were drawn from [m]
+    double mu = 0.0;       ///< friction coefficient of every contact [-]
+    double density = 0.0;  ///< [kg/m^Dim]
+    double gravity = 0.0;  ///< downwards, along minus the last axis [m/s^2]
+    /// Of the law the radii were drawn from, but not beyond any of them [m].
+    double mean_radius = 0.0;
     std::vector<Grain<Dim>> grains;
 };
 

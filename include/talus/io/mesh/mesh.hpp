@@ -67,6 +67,14 @@ class MeshBuilder {
             for (std::uint32_t& v : t) v = number[v];
         return std::move(mesh_);
     }
+    /// The same of a file; throws input_error naming it if all of its triangles were left out.
+    Mesh take_from(const std::string& file) {
+        if (mesh_.triangles.empty())
+            throw input_error(shown(file, 4096) + ": the file holds 0 triangles, as all " +
+                              std::to_string(mesh_.degenerate_count) +
+                              " have equal corners and were left out, but must hold at least one");
+        return take();
+    }
 
   private:
     struct Hash {

@@ -35,7 +35,7 @@ inline std::uint32_t obj_corner(LineReader& in, const std::string& item,
 /// corners becomes a fan of triangles; lines may go on after a backslash. Others (normals,
 /// textures, groups, materials, lines) are passed over. `file` is the name that complaints begin
 /// with. Throws input_error, one sentence with the line, when one of the two is not as it should
-/// be, or there is no face.
+/// be, or there is no face; and one with the count when every triangle has two equal corners.
 inline Mesh parse_obj(std::istream& text, const std::string& file) {
     LineReader in(text, file);
     detail::MeshBuilder mesh;
@@ -63,7 +63,7 @@ inline Mesh parse_obj(std::istream& text, const std::string& file) {
         }
     }
     if (face_count == 0) in.fail("the file", "holds no face, but must hold at least one");
-    return mesh.take();
+    return mesh.take_from(file);
 }
 
 /// Reads an OBJ file; see parse_obj.

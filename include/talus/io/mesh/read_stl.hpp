@@ -49,7 +49,7 @@ inline Mesh parse_binary_stl(std::string_view bytes, const std::string& file) {
         }
         mesh.triangle(triangle);
     }
-    return mesh.take();
+    return mesh.take_from(file);
 }
 
 /// Words of STL files, which may be written in capitals.
@@ -121,14 +121,15 @@ inline Mesh parse_text_stl(std::istream& text, const std::string& file) {
     }
     if (in_solid) in.fail("the file", "ends, but must hold 'endsolid' here");
     if (t == 0) in.fail("the file", "holds no triangle, but must hold at least one");
-    return mesh.take();
+    return mesh.take_from(file);
 }
 
 }  // namespace detail
 
 /// Reads a mesh from the bytes of an STL file, binary or text; `file` is the name that complaints
 /// begin with. Normals, colours and names are not read. Throws input_error, one sentence with line
-/// or byte, when anything is not as it should be.
+/// or byte, when anything is not as it should be; and one with the count when every triangle has
+/// two equal corners.
 inline Mesh parse_stl(const std::string& bytes, const std::string& file) {
     if (detail::is_binary_stl(bytes)) {
         if (bytes.size() == detail::stl_header_bytes)
