@@ -27,14 +27,16 @@ class ContactDetection {
     /// gives more candidates, kept for longer. All in [m]. `version` is another number whenever
     /// some shape is another. If `motion` is given, of each body over one step [m, rad], contacts
     /// are those that it leads to (anticipated_contacts.hpp), where that differs; of bodies that
-    /// touch, gap <= `tolerance`, only if they slide past that side.
+    /// touch, gap <= `tolerance`, only if they slide past that side. Throws input_error naming a
+    /// pair of the broad phase that is none.
     void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, std::uint64_t version,
                 std::span<const double> radius, double skin, std::span<const double> reach,
                 std::span<const Twist<Dim>> motion, double tolerance, ContactSet<Dim>& contacts) {
-        if (version != version_ || left_a_box(bodies, radius, reach)) {
-            box_.clear();  // so that a failure on the way leaves nothing that looks found
+        if (!found_ || version != version_ || left_a_box(bodies, radius, reach)) {
+            found_ = false;  // so that a failure on the way leaves nothing that looks found
             find_candidates(bodies, shapes, skin, reach);
             version_ = version;
+            found_ = true;
         }
         contacts.clear();
         if (!motion.empty()) anticipated_.begin(bodies, motion, tolerance);
@@ -89,6 +91,7 @@ class ContactDetection {
             std::span<const Aabb<Dim>>(box_),
             [&](BodyIndex i) { return bodies.is_obstacle(static_cast<std::size_t>(i)); },
             candidates_);
+        require_candidates(candidates_, free_);
     }
 
     Broad broad_;
@@ -98,6 +101,7 @@ class ContactDetection {
     std::vector<double> room_;             // widening of each box
     std::vector<bool> free_;               // no obstacle; two obstacles are no pair
     std::uint64_t version_ = 0;            // of the shapes
+    bool found_ = false;                   // candidates, of this version
     std::vector<CandidatePair> candidates_;
     std::vector<ContactPoint<Dim>> points_;
     AnticipatedContacts<Dim> anticipated_;

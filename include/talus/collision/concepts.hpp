@@ -8,7 +8,9 @@
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace talus {
@@ -29,7 +31,9 @@ struct NoObstacles {
 /// Finds the candidate pairs of the placed boxes of all bodies, box k being that of body k: exactly
 /// those with overlapping boxes of which not both are obstacles, sorted (by a, then b), replacing
 /// what `pairs` held. Boxes may be unbounded; empty ones (low > high somewhere) overlap nothing.
-/// Throws input_error, naming the body, if a side is NaN.
+/// Throws input_error, naming the body, if a side is NaN. Each pair comes once, the smaller index
+/// first: what is otherwise, or of two obstacles, ContactDetection refuses by name
+/// (require_candidates). A pair left out, or one of boxes far apart, it cannot see.
 template <class B, int Dim>
 concept BroadPhase = requires(B& broad_phase, std::span<const Aabb<Dim>> boxes,
                               NoObstacles is_obstacle, std::vector<CandidatePair>& pairs) {
@@ -49,6 +53,49 @@ void require_no_nan(std::span<const Aabb<Dim>> boxes) {
         if (boxes[k].low.hasNaN() || boxes[k].high.hasNaN())
             throw input_error(detail::numbered("bounding box of body", k,
                                                " is NaN, but must be numbers or infinite"));
+}
+
+namespace detail {
+
+[[noreturn]] inline void reject_candidate(std::span<const CandidatePair> pairs, std::size_t k,
+                                          std::size_t body_count) {
+    const auto text = [&](std::size_t i) {
+        return "(" + std::to_string(pairs[i].a) + ", " + std::to_string(pairs[i].b) + ")";
+    };
+    const auto [a, b] = pairs[k];
+    const auto is_body = [&](BodyIndex i) {
+        return i >= 0 && static_cast<std::size_t>(i) < body_count;
+    };
+    std::string must;
+    if (!is_body(a) || !is_body(b) || a == b)
+        must =
+            numbered("of two different bodies from 0 below", body_count, ", the number of bodies");
+    else if (a > b)
+        must = "with the smaller index first";
+    else if (k > 0 && !(pairs[k - 1] < pairs[k]))
+        must = numbered("sorted and once each, after pair", k - 1, ", ") + text(k - 1);
+    else
+        must = "of two bodies that are not both obstacles";
+    throw input_error(numbered("pair", k, " of the broad phase is ") + text(k) + ", but must be " +
+                      must);
+}
+
+}  // namespace detail
+
+/// Throws input_error naming the first pair that is none of BroadPhase: not of two different
+/// bodies, of which there are as many as `is_free`, the smaller index first; not sorted, or there
+/// twice; or of two obstacles. O(pairs).
+inline void require_candidates(std::span<const CandidatePair> pairs,
+                               const std::vector<bool>& is_free) {
+    std::uint64_t last = 0;  // below every pair of two bodies
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto a = static_cast<std::uint32_t>(pairs[k].a);  // far too large if negative
+        const auto b = static_cast<std::uint32_t>(pairs[k].b);
+        const std::uint64_t key = std::uint64_t{a} << 32 | b;
+        if (!(a < b && b < is_free.size() && last < key && (is_free[a] || is_free[b])))
+            detail::reject_candidate(pairs, k, is_free.size());
+        last = key;
+    }
 }
 
 }  // namespace talus
