@@ -6,6 +6,7 @@
 #include <talus/core/input.hpp>
 #include <talus/geometry/aabb.hpp>
 
+#include <algorithm>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -59,24 +60,16 @@ namespace detail {
 
 [[noreturn]] inline void reject_candidate(std::span<const CandidatePair> pairs, std::size_t k,
                                           std::size_t body_count) {
-    const auto text = [&](std::size_t i) {
-        return "(" + std::to_string(pairs[i].a) + ", " + std::to_string(pairs[i].b) + ")";
-    };
     const auto [a, b] = pairs[k];
-    const auto is_body = [&](BodyIndex i) {
-        return i >= 0 && static_cast<std::size_t>(i) < body_count;
-    };
-    std::string must;
-    if (!is_body(a) || !is_body(b) || a == b)
-        must =
-            numbered("of two different bodies from 0 below", body_count, ", the number of bodies");
-    else if (a > b)
-        must = "with the smaller index first";
-    else if (k > 0 && !(pairs[k - 1] < pairs[k]))
-        must = numbered("sorted and once each, after pair", k - 1, ", ") + text(k - 1);
-    else
-        must = "of two bodies that are not both obstacles";
-    throw input_error(numbered("pair", k, " of the broad phase is ") + text(k) + ", but must be " +
+    const auto count = static_cast<BodyIndex>(body_count);
+    const bool bodies = std::min(a, b) >= 0 && std::max(a, b) < count && a != b;
+    const char* const must = !bodies                               ? "two different bodies"
+                             : a > b                               ? "the smaller index first"
+                             : k > 0 && !(pairs[k - 1] < pairs[k]) ? "sorted, each pair once"
+                                                                   : "not both obstacles";
+    throw input_error(numbered("pair", k, " of the broad phase is (") + std::to_string(a) + ", " +
+                      std::to_string(b) +
+                      numbered("), but must be of the bodies from 0 below", body_count, ", ") +
                       must);
 }
 
