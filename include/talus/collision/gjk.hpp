@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace talus {
 
@@ -48,6 +49,20 @@ struct GjkSimplex {
     void set_weights(std::initializer_list<double> values) {
         std::ranges::copy(values, weights.begin());
     }
+    /// Shifts weight along each side of a triangle in turn until the nearest point is at a right
+    /// angle to it. In thin triangles the weights' rounding moves the point far along the triangle.
+    void improve_weights() {
+        Vector<Dim> v = nearest();
+        for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {2, 0}, {0, 1}, {1, 2}, {2, 0}}) {
+            const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+            const Vector<Dim> side = w(b) - w(a);
+            const double t = -v.dot(side) / side.squaredNorm();
+            if (!(weights[a] > t && weights[b] > -t)) continue;
+            weights[a] -= t;
+            weights[b] += t;
+            v += t * side;
+        }
+    }
 };
 
 template <int Dim>
@@ -69,12 +84,25 @@ GjkSimplex<Dim> nearest_part_of_segment(GjkSimplex<Dim> s) {
 template <int Dim>
 GjkSimplex<Dim> nearest_part_of_triangle(GjkSimplex<Dim> s) {
     const Vector<Dim> a = s.w(0), b = s.w(1), c = s.w(2), ab = b - a, ac = c - a;
-    const double d1 = -ab.dot(a), d2 = -ac.dot(a), d3 = -ab.dot(b), d4 = -ac.dot(b),
-                 d5 = -ab.dot(c), d6 = -ac.dot(c);
-    const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
+    double va = 0.0, vb = 0.0, vc = 0.0;
+    if constexpr (Dim == 2) {
+        const auto cross = [](const Vector<2>& x, const Vector<2>& y) {
+            return x[0] * y[1] - x[1] * y[0];
+        };
+        const double n = cross(ab, ac);
+        va = n * cross(b, c);
+        vb = n * cross(c, a);
+        vc = n * cross(a, b);
+    } else {
+        const Vector<3> n = ab.cross(ac);
+        va = n.dot(b.cross(c));
+        vb = n.dot(c.cross(a));
+        vc = n.dot(a.cross(b));
+    }
     if (va > 0.0 && vb > 0.0 && vc > 0.0) {
         const double sum = va + vb + vc;
         s.set_weights({va / sum, vb / sum, vc / sum});
+        s.improve_weights();
         return s;
     }
     // The nearest point lies on the outline: on the side where it is nearest, which stays right
@@ -118,6 +146,25 @@ GjkSimplex<Dim> nearest_part(GjkSimplex<Dim> s) {
     return s;
 }
 
+/// The same for a simplex that is known not to hold the origin, and whose part without its newest
+/// point, the last, has been searched.
+template <int Dim>
+GjkSimplex<Dim> nearest_new_part(const GjkSimplex<Dim>& s) {
+    if (s.count <= Dim) return nearest_part(s);
+    if constexpr (Dim == 2) {
+        const auto p = nearest_part_of_segment(s.part({0, 2})),
+                   q = nearest_part_of_segment(s.part({1, 2}));
+        return q.nearest().squaredNorm() < p.nearest().squaredNorm() ? q : p;
+    } else {
+        GjkSimplex<Dim> best = nearest_part_of_triangle(s.part({0, 1, 3}));
+        for (const auto& face : {s.part({0, 2, 3}), s.part({1, 2, 3})}) {
+            const auto candidate = nearest_part_of_triangle(face);
+            if (candidate.nearest().squaredNorm() < best.nearest().squaredNorm()) best = candidate;
+        }
+        return best;
+    }
+}
+
 }  // namespace detail
 
 /// Nearest points of two convex sets known by support mapping [GilbertJohnsonKeerthi1988]:
@@ -143,7 +190,9 @@ NearestPoints<Dim> nearest_points(const Support& support, const Vector<Dim>& sta
         if (v2 - v.dot(w) <= 1e-14 * v2) break;
         detail::GjkSimplex<Dim> grown = simplex;
         grown.points[grown.count++] = next;
-        grown = detail::nearest_part(grown);
+        // All of the set has x.v >= w.v: if that is positive, no simplex holds the origin, and that
+        // need not be asked of flat ones, where the answer is rounding.
+        grown = v.dot(w) > 0.0 ? detail::nearest_new_part(grown) : detail::nearest_part(grown);
         if (grown.count == Dim + 1) return {};
         const Vector<Dim> nearer = grown.nearest();
         if (!(nearer.squaredNorm() < v2)) break;

@@ -6,92 +6,245 @@
 #include <talus/geometry/half_space.hpp>
 #include <talus/geometry/shape_view.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace talus {
 
 namespace detail {
 
-/// The separation of two convex sets along a direction, s(n) = n . w(n) with w = support of A along
-/// -n minus support of B along n, and its maximum over unit n. Smooth sets have the gradient w, so
-/// that the part of w across n vanishes at the maximum.
+/// The hull of some points of A - B, grown by supports where it comes nearest to the origin (the
+/// expanding polytope): no direction has a depth below the least distance of its facets, so that
+/// none is missed, however flat the sets.
 template <int Dim, class Support>
-class Separation {
+class InnerHull {
   public:
-    Separation(const Support& support, double size) : support_(support), size_(size) {}
+    explicit InnerHull(const Support& support) : support_(support) {}
 
-    Vector<Dim> w(const Vector<Dim>& n) const { return support_(-n).difference(); }
-    double operator()(const Vector<Dim>& n) const { return n.dot(w(n)); }
-
-    /// The best of evenly spread directions, improved until it moves by rounding only.
-    Vector<Dim> best_direction() const {
-        Vector<Dim> best = direction(0);
-        for (int i = 1; i < direction_count; ++i)
-            if ((*this)(direction(i)) > (*this)(best)) best = direction(i);
-        return improved(best);
+    /// The direction of least depth, up to `accuracy` of the depth or the capacity.
+    Vector<Dim> best_direction() {
+        begin();
+        while (facet_count_ > 0 && point_count_ < capacity) {
+            const Facet nearest = *std::min_element(
+                facets_.data(), facets_.data() + facet_count_,
+                [](const Facet& f, const Facet& g) { return f.distance < g.distance; });
+            if (nearest.distance >= (1.0 - accuracy) * best_depth_) break;
+            const Vector<Dim> w = farthest(nearest.normal);
+            // A facet of A - B itself: what is left of its depth is rounding.
+            if (!(nearest.normal.dot(w) - nearest.distance > rounding * size_)) break;
+            grow(w);
+        }
+        return best_;
     }
 
   private:
-    static constexpr int direction_count = Dim == 2 ? 64 : 256;
+    /// Points it may have: what the accuracy takes for balls one in the other.
+    static constexpr std::size_t capacity = Dim == 2 ? 64 : 256;
+    /// Two directions as near to each other in depth may be mistaken; a smaller one costs more
+    /// points where the sets are round, their number growing as one over it.
+    static constexpr double accuracy = 1e-3;
+    static constexpr double rounding = 1e-14;  // of the size of A - B
 
-    /// Directions of the unit circle; of the sphere by the golden spiral.
-    static Vector<Dim> direction(int i) {
-        if constexpr (Dim == 2) {
-            const double angle = 2.0 * std::numbers::pi * i / direction_count;
-            return {std::cos(angle), std::sin(angle)};
-        } else {
-            const double z = (2.0 * i + 1.0) / direction_count - 1.0;
-            const double angle = 2.0 * std::numbers::pi * i / std::numbers::phi;
-            const double r = std::sqrt(1.0 - z * z);
-            return {r * std::cos(angle), r * std::sin(angle), z};
+    struct Facet {
+        std::array<std::size_t, Dim> corner;
+        Vector<Dim> normal;  ///< outwards
+        double distance;     ///< of its plane from the origin, positive if that is inside
+    };
+
+    /// The support of A - B along m.
+    Vector<Dim> farthest(const Vector<Dim>& m) {
+        const Vector<Dim> w = support_(m).difference();
+        if (const double depth = m.dot(w); depth < best_depth_) {
+            best_depth_ = depth;
+            best_ = -m;
+        }
+        return w;
+    }
+    /// A simplex of points far from each other. There is none, and no facet, if A - B is flat: then
+    /// the direction across has been tried.
+    void begin() {
+        std::array<Vector<Dim>, 2 * Dim> w;
+        for (std::size_t i = 0; i < w.size(); ++i)
+            w[i] = farthest((i % 2 == 0 ? 1.0 : -1.0) * Vector<Dim>::Unit(static_cast<int>(i / 2)));
+        for (const Vector<Dim>& p : w)
+            for (const Vector<Dim>& q : w)
+                if ((p - q).norm() > size_) {
+                    size_ = (p - q).norm();
+                    points_[0] = p;
+                    points_[1] = q;
+                }
+        if (size_ == 0.0) return;
+        const Vector<Dim> along = (points_[1] - points_[0]) / size_;
+        Vector<Dim> off = Vector<Dim>::Zero();
+        const auto consider = [&](const Vector<Dim>& p) {
+            const Vector<Dim> from = p - points_[0], q = from - along * along.dot(from);
+            if (q.norm() <= off.norm()) return;
+            off = q;
+            points_[2] = p;
+        };
+        for (const Vector<Dim>& p : w) consider(p);
+        const Vector<Dim> across = along.unitOrthogonal();
+        consider(farthest(across));
+        consider(farthest(-across));
+        if constexpr (Dim == 3) {
+            consider(farthest(along.cross(across)));
+            consider(farthest(across.cross(along)));
+        }
+        if (off.norm() <= rounding * size_) return;
+        if constexpr (Dim == 3) {
+            const Vector<3> n = along.cross(off).normalized();
+            const Vector<3> up = farthest(n), down = farthest(-n);
+            const double over = n.dot(up - points_[0]), under = n.dot(points_[0] - down);
+            if (std::max(over, under) <= rounding * size_) return;
+            points_[3] = over > under ? up : down;
+        }
+        point_count_ = Dim + 1;
+        for (std::size_t skip = 0; skip <= Dim; ++skip) {
+            std::array<std::size_t, Dim> corner{};
+            for (std::size_t i = 0, k = 0; i <= Dim; ++i)
+                if (i != skip) corner[k++] = i;
+            const Facet f = facet(corner);
+            if (f.normal.dot(points_[skip]) > f.distance) std::swap(corner[0], corner[1]);
+            facets_[facet_count_++] = facet(corner);
         }
     }
-    static Eigen::Matrix<double, Dim, Dim - 1> tangents(const Vector<Dim>& n) {
-        Eigen::Matrix<double, Dim, Dim - 1> t;
-        t.col(0) = n.unitOrthogonal();
-        if constexpr (Dim == 3) t.col(1) = n.cross(t.col(0));
-        return t;
+    Facet facet(const std::array<std::size_t, Dim>& c) const {
+        Vector<Dim> n;
+        const Vector<Dim> side = points_[c[1]] - points_[c[0]];
+        if constexpr (Dim == 2)
+            n = Vector<2>(side[1], -side[0]);
+        else
+            n = side.cross(points_[c[2]] - points_[c[0]]);
+        // One without extent looks nowhere: it is never the nearest and never gives way.
+        if (!(n.squaredNorm() > 0.0)) return {c, n, std::numeric_limits<double>::infinity()};
+        n.normalize();
+        return {c, n, n.dot(points_[c[0]])};
     }
-    /// Newton's method on the tangential gradient, its derivative by differences; where Newton does
-    /// not climb, a step along the gradient that is halved until it does.
-    Vector<Dim> improved(Vector<Dim> n) const {
-        constexpr double step = 1e-5;  // balances truncation and rounding of a first difference
-        for (int k = 0; k < 100; ++k) {
-            const auto t = tangents(n);
-            const double s = (*this)(n);
-            const Vector<Dim - 1, double> g = t.transpose() * w(n);
-            if (g.norm() <= 1e-13 * size_) break;
-            Eigen::Matrix<double, Dim - 1, Dim - 1> slope;
-            for (int c = 0; c < Dim - 1; ++c) {
-                const Vector<Dim> up = n + step * t.col(c), down = n - step * t.col(c);
-                slope.col(c) = t.transpose() * (w(up) - w(down)) / (2.0 * step);
+    /// Facets that the new point is outside of give way to those that join it with their outline.
+    void grow(const Vector<Dim>& w) {
+        using Ridge = std::array<std::size_t, 2>;
+        std::array<Ridge, Dim == 2 ? 4 * capacity : 6 * capacity> outline;
+        std::size_t outline_count = 0, kept = 0;
+        // What two of them share comes once either way round, and is no part of the outline.
+        const auto toggle = [&](const Ridge& r, const Ridge& reverse) {
+            for (std::size_t i = 0; i < outline_count; ++i)
+                if (outline[i] == reverse) {
+                    outline[i] = outline[--outline_count];
+                    return;
+                }
+            outline[outline_count++] = r;
+        };
+        for (std::size_t i = 0; i < facet_count_; ++i) {
+            const Facet f = facets_[i];
+            if (!(f.normal.dot(w) > f.distance)) {
+                facets_[kept++] = f;
+                continue;
             }
-            // On the sphere the second derivative is slope - s; negative at a maximum.
-            slope.diagonal().array() -= s;
-            const Eigen::Matrix<double, Dim - 1, 1> newton = -slope.inverse() * g;
-            Vector<Dim> next = (n + t * newton).normalized();
-            if (!(newton.norm() < 0.5) || !((*this)(next) >= s)) {
-                double length = 0.1 / g.norm();
-                do {
-                    next = (n + t * (length * g)).normalized();
-                    length *= 0.5;
-                } while (!((*this)(next) > s) && length * g.norm() > 1e-12);
-                if (!((*this)(next) > s)) break;
+            if constexpr (Dim == 2) {
+                toggle({f.corner[0], 0}, {f.corner[0], 1});
+                toggle({f.corner[1], 1}, {f.corner[1], 0});
+            } else {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::size_t p = f.corner[k], q = f.corner[(k + 1) % 3];
+                    toggle({p, q}, {q, p});
+                }
             }
-            n = next;
         }
-        return n;
+        facet_count_ = kept;
+        const std::size_t added = point_count_++;
+        points_[added] = w;
+        for (std::size_t i = 0; i < outline_count && facet_count_ < facets_.size(); ++i) {
+            const auto [p, q] = outline[i];
+            if constexpr (Dim == 2)
+                facets_[facet_count_++] = q == 0 ? facet({p, added}) : facet({added, p});
+            else
+                facets_[facet_count_++] = facet({p, q, added});
+        }
+    }
+
+    const Support& support_;
+    std::array<Vector<Dim>, capacity> points_;
+    std::array<Facet, 2 * capacity> facets_;
+    std::size_t point_count_ = 0, facet_count_ = 0;
+    double size_ = 0.0;
+    Vector<Dim> best_ = Vector<Dim>::Unit(0);
+    double best_depth_ = std::numeric_limits<double>::infinity();
+};
+
+/// Two overlapping convex sets, and the least displacement that separates them: the maximum over
+/// unit n of s(n) = n . w(n), where w(n) is the support of A along -n minus that of B along n.
+///
+/// Moved apart by d - s(n) along n the sets are d away from each other along n, hence at least d in
+/// all, and if m is the direction of their nearest points then s(m) >= s(n): the distance is
+/// d' = s(m) + (d - s(n)) m.n >= d, where m.n <= 1. So n -> m climbs, whatever the sets, and the
+/// nearest points of the sets moved apart, moved back, are where they meet: also on faces, where a
+/// support is a corner far away.
+template <int Dim, class Support>
+class Overlap {
+  public:
+    /// `size` is that of the smaller set.
+    Overlap(const Support& support, double size)
+        : support_(support), size_(size), away_(0.1 * size) {}
+
+    /// A direction, the gap along it, and the points of A and B that it pushes upon each other.
+    struct Contact {
+        Vector<Dim> normal;
+        double gap;
+        DifferencePoint<Dim> points;
+    };
+
+    Contact deepest() const { return climb(InnerHull<Dim, Support>(support_).best_direction()); }
+
+    Contact climb(Vector<Dim> n) const {
+        Contact best = step(n);
+        Vector<Dim> moved = Vector<Dim>::Zero();
+        for (int k = 0; k < 30; ++k) {
+            const double s = separation(best.normal);
+            if (!(s > best.gap + 1e-13 * size_)) break;
+            const Vector<Dim> moved_before = moved;
+            moved = best.normal - n;
+            n = best.normal;
+            // Near a smooth maximum the moves shrink by a constant factor: their sum in one.
+            if (const double q = moved.norm() / moved_before.norm(); k > 0 && q < 1.0) {
+                Vector<Dim> rest = q / (1.0 - q) * moved;
+                for (int j = 0; j < 6; ++j, rest *= 0.25) {
+                    const Vector<Dim> sum = (n + rest).normalized();
+                    if (separation(sum) > s) {
+                        n = sum;
+                        break;
+                    }
+                }
+            }
+            best = step(n);
+        }
+        return best;
+    }
+
+  private:
+    double separation(const Vector<Dim>& n) const { return n.dot(support_(-n).difference()); }
+
+    /// `gap` is along n, `normal` the next direction.
+    Contact step(const Vector<Dim>& n) const {
+        const double s = separation(n);
+        const Vector<Dim> shift = (away_ - s) * n;
+        const auto near = nearest_points<Dim>(
+            [&](const Vector<Dim>& d) {
+                const DifferencePoint<Dim> p = support_(d);
+                return DifferencePoint<Dim>{p.a + shift, p.b};
+            },
+            n, size_);
+        if (!(near.distance > 0.0)) return {n, s, support_(-n)};
+        return {near.apart / near.distance, s, {near.a - shift, near.b}};
     }
 
     const Support& support_;
     double size_;
+    double away_;  ///< d above: large enough for the direction of nearest points to be exact [m]
 };
-
-}  // namespace detail
-
-namespace detail {
 
 /// Contact of a convex shape with a half-space: its lowest point, code 0.
 template <int Dim>
@@ -128,19 +281,20 @@ void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
     };
     const double size = std::min((box_a.high - box_a.low).norm(), (box_b.high - box_b.low).norm());
     const Vector<Dim> apart = origin - 0.5 * (box_b.low + box_b.high);
-    const auto near = nearest_points<Dim>(
-        support, apart.isZero(0.0) ? Vector<Dim>(Vector<Dim>::Unit(0)) : apart, size);
-    if (near.distance > 1e-8 * size) {
-        if (near.distance <= margin)
-            out.push_back(
-                {origin + 0.5 * (near.a + near.b), near.apart / near.distance, near.distance, {}});
-        return;
+    const Vector<Dim> start = apart.isZero(0.0) ? Vector<Dim>(Vector<Dim>::Unit(0)) : apart;
+    const auto near = nearest_points<Dim>(support, start, size);
+    const auto add = [&](const DifferencePoint<Dim>& p, const Vector<Dim>& normal, double gap) {
+        if (gap <= margin) out.push_back({origin + 0.5 * (p.a + p.b), normal, gap, {}});
+    };
+    if (near.distance > 1e-3 * size)
+        return add({near.a, near.b}, near.apart / near.distance, near.distance);
+    const detail::Overlap<Dim, decltype(support)> overlap(support, size);
+    if (near.distance > 0.0) {
+        const auto c = overlap.climb(near.apart / near.distance);
+        if (c.gap > 0.0) return add(c.points, c.normal, c.gap);
     }
-    const detail::Separation<Dim, decltype(support)> separation(support, size);
-    const Vector<Dim> n = separation.best_direction();
-    const DifferencePoint<Dim> touching = support(-n);
-    const double gap = n.dot(touching.difference());
-    if (gap <= margin) out.push_back({origin + 0.5 * (touching.a + touching.b), n, gap, {}});
+    const auto c = overlap.deepest();
+    add(c.points, c.normal, c.gap);
 }
 
 }  // namespace talus
