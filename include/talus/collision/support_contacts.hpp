@@ -190,46 +190,52 @@ class Overlap {
     Overlap(const Support& support, double size)
         : support_(support), size_(size), away_(0.1 * size) {}
 
-    /// A direction, the gap along it, and the points of A and B that it pushes upon each other.
     struct Contact {
         Vector<Dim> normal;
         double gap;
-        DifferencePoint<Dim> points;
+        DifferencePoint<Dim> points;  ///< of A and B that the normal pushes upon each other
     };
 
     Contact deepest() const { return climb(InnerHull<Dim, Support>(support_).best_direction()); }
 
+    /// The contact at the maximum that n -> m leads to: on flat sets in a step or two, on round
+    /// ones the slower the nearer the depth comes to their radii.
     Contact climb(Vector<Dim> n) const {
-        Contact best = step(n);
-        Vector<Dim> moved = Vector<Dim>::Zero();
+        double s = separation(n);
+        Contact contact = step(n, s);
+        Vector<Dim> move = Vector<Dim>::Zero();
         for (int k = 0; k < 30; ++k) {
-            const double s = separation(best.normal);
-            if (!(s > best.gap + 1e-13 * size_)) break;
-            const Vector<Dim> moved_before = moved;
-            moved = best.normal - n;
-            n = best.normal;
-            // Near a smooth maximum the moves shrink by a constant factor: their sum in one.
-            if (const double q = moved.norm() / moved_before.norm(); k > 0 && q < 1.0) {
-                Vector<Dim> rest = q / (1.0 - q) * moved;
+            const double next = separation(contact.normal);
+            if (!(next > s + 1e-15 * size_)) break;
+            const double before = move.norm();
+            move = contact.normal - n;
+            n = contact.normal;
+            s = next;
+            // Near a smooth maximum the moves shrink by a constant factor: all that are to come in
+            // one, or less where that is beyond an edge.
+            if (const double q = move.norm() / before; q < 1.0) {
+                Vector<Dim> rest = q / (1.0 - q) * move;
                 for (int j = 0; j < 6; ++j, rest *= 0.25) {
-                    const Vector<Dim> sum = (n + rest).normalized();
-                    if (separation(sum) > s) {
-                        n = sum;
+                    const Vector<Dim> beyond = (n + rest).normalized();
+                    if (const double there = separation(beyond); there > s) {
+                        n = beyond;
+                        s = there;
                         break;
                     }
                 }
             }
-            best = step(n);
+            contact = step(n, s);
         }
-        return best;
+        return contact;
     }
+
+    double away() const { return away_; }
 
   private:
     double separation(const Vector<Dim>& n) const { return n.dot(support_(-n).difference()); }
 
-    /// `gap` is along n, `normal` the next direction.
-    Contact step(const Vector<Dim>& n) const {
-        const double s = separation(n);
+    /// From n, where the sets are s apart, to the next direction, with gap and points along it.
+    Contact step(const Vector<Dim>& n, double s) const {
         const Vector<Dim> shift = (away_ - s) * n;
         const auto near = nearest_points<Dim>(
             [&](const Vector<Dim>& d) {
@@ -238,12 +244,16 @@ class Overlap {
             },
             n, size_);
         if (!(near.distance > 0.0)) return {n, s, support_(-n)};
-        return {near.apart / near.distance, s, {near.a - shift, near.b}};
+        const Vector<Dim> m = near.apart / near.distance;
+        const DifferencePoint<Dim> points{near.a - shift, near.b};
+        return {m, m.dot(points.difference()), points};
     }
 
     const Support& support_;
     double size_;
-    double away_;  ///< d above: large enough for the direction of nearest points to be exact [m]
+    /// d above [m]: small, so that few steps are needed, yet so large that the rounding of places
+    /// does not turn the direction of the nearest points.
+    double away_;
 };
 
 /// Contact of a convex shape with a half-space: its lowest point, code 0.
@@ -262,8 +272,11 @@ void append_lowest_point(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const
 
 /// Contact of two shapes with support mappings by these alone: one point, of code 0. Apart,
 /// the nearest points; overlapping, the direction in which the least displacement separates them,
-/// accurate to 1e-10 of their size for smooth shapes. Shapes with corners deserve a routine of
-/// their own (see PairContacts): one point does not hold a face still. B may be a half-space.
+/// and the places that separate last: the two agree where they meet, at gap 0. The gap is accurate
+/// to 1e-10 of the smaller size, a point to 1e-7 of it for equal sizes and to the square root of
+/// their ratio times that. Where two ways out are the same to 1e-3 of the depth either may be
+/// taken. Shapes with corners deserve a routine of their own (see PairContacts): one point does not
+/// hold a face still. B may be a half-space.
 template <int Dim>
 void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                             const ShapeView<Dim>& b, const Pose<Dim>& pose_b, double margin,
@@ -273,22 +286,28 @@ void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                                                 margin, out);
     const Aabb<Dim> box_a = a.aabb(pose_a), box_b = b.aabb(pose_b);
     if (margin >= 0.0 && !box_a.expanded(margin).overlaps(box_b)) return;
-    const Vector<Dim> origin = 0.5 * (box_a.low + box_a.high);
+    const double size_a = (box_a.high - box_a.low).norm(), size_b = (box_b.high - box_b.low).norm();
+    const double size = std::min(size_a, size_b);
+    const Vector<Dim> centre_a = 0.5 * (box_a.low + box_a.high),
+                      centre_b = 0.5 * (box_b.low + box_b.high);
+    const Vector<Dim> origin = size_a < size_b ? centre_a : centre_b;
     const auto support = [&](const Vector<Dim>& d) {
         return DifferencePoint<Dim>{
             pose_a.point_world(a.support(pose_a.rotation.transpose_times(d))) - origin,
             pose_b.point_world(b.support(pose_b.rotation.transpose_times(-d))) - origin};
     };
-    const double size = std::min((box_a.high - box_a.low).norm(), (box_b.high - box_b.low).norm());
-    const Vector<Dim> apart = origin - 0.5 * (box_b.low + box_b.high);
-    const Vector<Dim> start = apart.isZero(0.0) ? Vector<Dim>(Vector<Dim>::Unit(0)) : apart;
+    const Vector<Dim> start =
+        centre_a == centre_b ? Vector<Dim>(Vector<Dim>::Unit(0)) : Vector<Dim>(centre_a - centre_b);
     const auto near = nearest_points<Dim>(support, start, size);
     const auto add = [&](const DifferencePoint<Dim>& p, const Vector<Dim>& normal, double gap) {
         if (gap <= margin) out.push_back({origin + 0.5 * (p.a + p.b), normal, gap, {}});
     };
-    if (near.distance > 1e-3 * size)
-        return add({near.a, near.b}, near.apart / near.distance, near.distance);
+    // Far apart the nearest points are good as they are; nearer, their rounding shows in the
+    // normal.
+    if (near.distance > margin + 1e-6 * size) return;
     const detail::Overlap<Dim, decltype(support)> overlap(support, size);
+    if (near.distance > overlap.away())
+        return add({near.a, near.b}, near.apart / near.distance, near.distance);
     if (near.distance > 0.0) {
         const auto c = overlap.climb(near.apart / near.distance);
         if (c.gap > 0.0) return add(c.points, c.normal, c.gap);
