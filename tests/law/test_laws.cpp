@@ -39,6 +39,28 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(coulomb_is_a_law, D, dimensions) {
     }
 }
 
+/// Whether a weighted mean may adapt a law: it would ignore a restitution within it.
+template <int Dim, class Law>
+constexpr bool has_mean = requires {
+    typename talus::WeightedMean<Dim, Law>;
+};
+template <int Dim>
+constexpr bool means_are_told_apart() {
+    using Coulomb = talus::Coulomb<Dim>;
+    using Pin = talus::Bilateral<Dim>;
+    using Mean = talus::WeightedMean<Dim, Coulomb>;
+    static_assert(has_mean<Dim, Coulomb> && has_mean<Dim, talus::Cohesive<Dim, Coulomb>>);
+    static_assert(has_mean<Dim, talus::AnyLaw<Dim, Coulomb, Pin>>);
+    static_assert(!talus::RestitutionLaw<talus::AnyLaw<Dim, Coulomb, Pin>, Dim>);
+    static_assert(!has_mean<Dim, Mean> && !has_mean<Dim, talus::AnyLaw<Dim, Pin, Mean>>);
+    static_assert(!has_mean<Dim, talus::Cohesive<Dim, Mean>>);
+    using Inner = talus::AnyLaw<Dim, Coulomb, Pin>;
+    static_assert(talus::RestitutionLaw<talus::WeightedMean<Dim, Inner>, Dim>);
+    static_assert(talus::RestitutionLaw<talus::Cohesive<Dim, Mean>, Dim>);
+    return true;
+}
+static_assert(means_are_told_apart<2>() && means_are_told_apart<3>());
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(adaptors_are_laws, D, dimensions) {
     constexpr int dim = D::value;
     using Mean = talus::WeightedMean<dim, talus::Coulomb<dim>>;

@@ -39,8 +39,10 @@ requires(sizeof...(Laws) > 0) struct AnyLaw {
         return std::visit([&](const auto& l) { return talus::steep_error<Rows>(l, u, r, rho); },
                           law);
     }
-    /// The shift of the chosen law; zero for one without restitution.
-    Vector<Rows> restitution_shift(const Vector<Rows>& u_begin) const {
+    /// The shift of the chosen law; zero for one without restitution. If all are without, so is
+    /// this, and WeightedMean may adapt it.
+    Vector<Rows> restitution_shift(const Vector<Rows>& u_begin) const
+        requires(RestitutionLaw<Laws, Rows> || ...) {
         return std::visit(
             [&](const auto& l) -> Vector<Rows> {
                 if constexpr (RestitutionLaw<std::remove_cvref_t<decltype(l)>, Rows>)

@@ -55,6 +55,11 @@ double steep_error(const Law& law, const Vector<Rows>& u, const Vector<Rows>& r,
         return 0.0;
 }
 
+/// A law that `WeightedMean` can adapt. One that has a restitution itself, even if of an inner law,
+/// would lose it: a contact has one weighted mean.
+template <class L, int Rows>
+concept LawWithoutRestitution = ContactLaw<L, Rows> && !RestitutionLaw<L, Rows>;
+
 /// Whether the rows after the tangents are rolling components: laws say so by a member
 /// `rolling_rows`, adaptors pass on what they hold. Such a law belongs to no ContactJacobian, which
 /// has none of these rows.

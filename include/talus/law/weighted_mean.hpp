@@ -21,7 +21,7 @@ namespace talus {
 /// != e_t the mean is scaled apart in n and t; it still vanishes, opens and has its direction where
 /// the shifted velocity does. Different e_n and e_t can create energy [KaneLevinson1985]: a
 /// property of the law.
-template <int Rows, ContactLaw<Rows> Law>
+template <int Rows, LawWithoutRestitution<Rows> Law>
 struct WeightedMean {
     static constexpr bool rolling_rows = has_rolling_rows<Law>;
 

@@ -190,10 +190,10 @@ class ContactScales {
 /// carries a heavy one, rho_c is the light one's, and the heavy one may fall freely with an eta of
 /// the root of the ratio of masses. |r_c - f_c| / rho_c is the velocity by which contact c violates
 /// its law; with friction above mu = 0.8 the larger of it and of s_c / rho_c, half the violation
-/// that the natural map hides on a steep cone (FrictionCone::steep_error). V_c is the largest of the
-/// first kind that there would be without any impulse, among the contacts of its island: those that
-/// chains of free bodies connect with it. For bodies at rest under gravity V is h g, and never less
-/// than a thousandth of the largest u_free of the island, so that contacts which separate by
+/// that the natural map hides on a steep cone (FrictionCone::steep_error). V_c is the largest of
+/// the first kind that there would be without any impulse, among the contacts of its island: those
+/// that chains of free bodies connect with it. For bodies at rest under gravity V is h g, and never
+/// less than a thousandth of the largest u_free of the island, so that contacts which separate by
 /// themselves are not judged by nothing; what happens elsewhere, however fast, hides nothing. (An
 /// island in which nothing moves, to 1e-12 of the largest u_free anywhere, has no scale of its own:
 /// V is a thousandth of that. Where V is no more than 4e-11 of the largest r_c / rho_c that a solve
