@@ -10,7 +10,7 @@
 #include "common/random_geometry.hpp"
 #include "stepping/experiment.hpp"
 
-namespace {
+BOOST_AUTO_TEST_SUITE(collision_support_contacts)
 
 using random_geometry::uniform;
 
@@ -118,10 +118,6 @@ talus::Box<Dim> block(double width, double height) {
     half[Dim - 1] = 0.5 * height;
     return talus::Box<Dim>(half);
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_SUITE(collision_support_contacts)
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_bead_acts_like_a_ball_on_boxes_of_any_width, D, dimensions) {
     constexpr int Dim = D::value;

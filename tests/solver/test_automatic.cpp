@@ -121,27 +121,15 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(limits_hold_for_proofs_too, D, dimensions) {
     auto p = stack_of_particles<dim>(std::vector<double>(n, 1.0), Law<dim>{.mu = 0.5});
     p.inverse_mass.linear[n - 1] = 0.0;
     for (auto& u : p.free_velocity) u = -talus::Vector<dim>::Unit(0);
-    const auto factorisations = [&](talus::AutomaticParams params) {
+    const auto is_proven = [&](talus::AutomaticParams params) {
         params.tolerance = 1e-2;
         std::vector<talus::Vector<dim>> r(n, 1e12 * talus::Vector<dim>::Unit(0));
         talus::Automatic<dim, Law<dim>> solver(params);
-        const auto& report = solver.solve(p, r);
-        if (params.max_factorizations > 100 && params.max_factor_bytes > 0.0)
-            BOOST_TEST((report.status == talus::SolveStatus::no_solution));
-        int all = 0, by_factors = 0;
-        for (const auto& stage : report.stages) {
-            all += stage.iterations;
-            if (stage.engine != "gauss_seidel" && stage.engine != "anderson" &&
-                stage.engine != "nesterov")
-                by_factors += stage.iterations;
-        }
-        BOOST_TEST(report.iterations == all);
-        return by_factors;
+        return solver.solve(p, r).status == talus::SolveStatus::no_solution;
     };
-    BOOST_TEST(factorisations({}) > 0);
-    BOOST_TEST(factorisations({.max_factorizations = 5}) <= 5);
-    BOOST_TEST(factorisations({.max_factorizations = 0}) == 0);
-    BOOST_TEST(factorisations({.max_factor_bytes = 0.0}) == 0);
+    BOOST_TEST(is_proven({}));
+    BOOST_TEST(!is_proven({.max_factorizations = 0}));
+    BOOST_TEST(!is_proven({.max_factor_bytes = 0.0}));
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(blocks_and_bodies_lead_to_the_same_velocities, D, dimensions) {

@@ -93,6 +93,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(settings_reach_the_solver, D, dimensions) {
     Impulses<dim> r(2, talus::Vector<dim>::Zero());
     auto solver = talus::make_solver<dim, Law<dim>>("gauss_seidel", {.max_iterations = 3});
     BOOST_TEST(solver.solve(p, r).iterations == 3);
+    auto loose = talus::make_solver<dim, Law<dim>>("gauss_seidel", {.tolerance = 0.5});
+    BOOST_TEST(loose.solve(p, r).iterations == 0);
     for (const auto& [name, description] : talus::solver_names<dim, Law<dim>>()) {
         BOOST_TEST_INFO_SCOPE(name);
         r.assign(2, talus::Vector<dim>::Zero());
@@ -102,8 +104,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(settings_reach_the_solver, D, dimensions) {
             talus::make_solver<dim, Law<dim>>(name, {.tolerance = 0.0, .max_iterations = 2});
         BOOST_TEST(limited.solve(p, r).iterations <= limit);
     }
-    auto loose = talus::make_solver<dim, Law<dim>>("gauss_seidel", {.tolerance = 0.5});
-    BOOST_TEST(loose.solve(p, r).iterations == 0);
     BOOST_CHECK_THROW((talus::make_solver<dim, Law<dim>>("automatic", {.tolerance = -1.0})),
                       talus::input_error);
 }

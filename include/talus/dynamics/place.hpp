@@ -21,6 +21,10 @@ namespace detail {
         numbered("prescribed motion of body", body, " at time " + text_of(t) + std::string(what)));
 }
 
+inline bool equal_numbers(const double* x, const double* y, std::size_t count) {
+    return std::memcmp(x, y, count * sizeof(double)) == 0;
+}
+
 /// How far `x` is from the segment between two points.
 template <class Vec>
 double distance_from_segment(const Vec& x, const Vec& from, const Vec& to) {
@@ -107,12 +111,13 @@ struct PlacedState {
     }
     /// Bit for bit.
     bool is_of(const Bodies<Dim>& bodies, std::size_t i) const {
-        const auto equal = [](const auto& x, const auto& y) {
-            return std::memcmp(x.data(), y.data(),
-                               sizeof(double) * static_cast<std::size_t>(x.size())) == 0;
-        };
-        return equal(position, bodies.position[i]) && equal(velocity, bodies.velocity[i]) &&
-               equal(spin, bodies.spin[i]) && equal(rotation.matrix(), bodies.rotation[i].matrix());
+        using detail::equal_numbers;
+        constexpr std::size_t spins = Dim * (Dim - 1) / 2;
+        return equal_numbers(position.data(), bodies.position[i].data(), Dim) &&
+               equal_numbers(velocity.data(), bodies.velocity[i].data(), Dim) &&
+               equal_numbers(spin.data(), bodies.spin[i].data(), spins) &&
+               equal_numbers(rotation.matrix().data(), bodies.rotation[i].matrix().data(),
+                             Dim * Dim);
     }
 };
 

@@ -52,9 +52,10 @@ struct AutomaticParams {
 /// the same input takes the same way on a machine, to the bit. Engines that treat all contacts at
 /// once need laws with a cone (law/cone_of.hpp); with others sweeps do everything.
 ///
-/// The report's `stages` tell who did what; `iterations` counts those of all engines. `no_solution`
-/// is reported where there is a certificate: normal impulses that move nothing and yet would gain
-/// energy from the prescribed motion, so that no motion separates all contacts.
+/// The report's `stages` tell who did what; `iterations` counts those of all engines (a proof's
+/// factorisations are in neither, but within `max_factorizations`). `no_solution` is reported where
+/// there is a certificate: normal impulses that move nothing and yet would gain energy from the
+/// prescribed motion, so that no motion separates all contacts.
 template <int Dim, ContactLaw<Dim> Law>
 class Automatic {
   public:
@@ -306,7 +307,7 @@ class Automatic {
     template <class T>
     bool cannot_separate(T& task) {
         if constexpr (ConeLaw<Law, Dim>)
-            return team_.cannot_separate(task, measure_, report_);
+            return team_.cannot_separate(task, measure_);
         else
             return false;
     }

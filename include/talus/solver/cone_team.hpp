@@ -105,10 +105,10 @@ class ConeTeam<Dim, Law> {
         return overlap_proven_ ||
                (path_broke_off && certificate_.by_sweeps(task.w, task.free_velocity, system_));
     }
-    /// Whether there is a proof for the problem without friction, which is then the one held. The
-    /// report gets a stage of the factorisations that it took.
+    /// Whether there is a proof for the problem without friction, which is then the one held. Its
+    /// factorisations are of what may be spent on the solve.
     template <class T>
-    bool cannot_separate(T& task, const ResidualMeasure<Dim>& measure, SolveReport& report) {
+    bool cannot_separate(T& task, const ResidualMeasure<Dim>& measure) {
         auto cones = cones_of<Dim>(task.laws);
         if (!cones) return false;
         for (FrictionCone<Dim>& cone : *cones) cone.mu = 0.0;
@@ -118,11 +118,7 @@ class ConeTeam<Dim, Law> {
         constexpr int usual_steps = 30;
         const bool proven =
             certificate_.by_newton(polish_, system_, std::min(usual_steps, factorizations_left_));
-        const int done = polish_.report().iterations;
-        factorizations_left_ -= done;
-        // Its residuals are of another problem.
-        report.iterations += done;
-        report.stages.push_back({"overlap_certificate", done, report.residual});
+        factorizations_left_ -= polish_.report().iterations;
         return proven;
     }
 

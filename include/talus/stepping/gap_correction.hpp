@@ -49,23 +49,25 @@ class GapCorrection {
     template <class Law, class ShapeType>
     void apply(System<Dim, Law, ShapeType>& system, StepData<Dim, Law>& data) {
         const double earned = dissipated(data);
-        if (!(params.fraction > 0.0) || !pose_problem(data)) {
+        if (!(params.fraction > 0.0)) {
             budget_ += earned;
             return;
         }
+        const bool overlap = pose_problem(data);
         detail::make_room(impulse_, data.contact_count());
         impulse_.assign(data.contact_count(), Vector<Dim>::Zero());
         solver_.params = params.solver;
-        report_ = solver_.solve(problem_, std::span<Vector<Dim>>(impulse_));
+        // Without overlap there is nothing to sweep; it is made ready for as many contacts.
+        solver_.solve(problem_, std::span<Vector<Dim>>(impulse_));
         displacement_.assign(system.bodies.count(), Twist<Dim>{});
         apply_impulses<Dim>(problem_.jacobian, problem_.inverse_mass, impulse_, displacement_);
         budget_ += earned;  // from here on nothing throws
-        displace(system, data);
+        if (overlap) displace(system, data);
     }
 
     /// Of the last displacement problem: where it did not converge, bodies have moved by what was
     /// found, and what is left is seen to in the next step.
-    const SolveReport& report() const { return report_; }
+    const SolveReport& report() const { return solver_.report(); }
     /// Dissipated energy not yet spent on lifting [J].
     double budget() const { return budget_; }
 
@@ -80,7 +82,7 @@ class GapCorrection {
         return -work;
     }
 
-    /// Fills the displacement problem; false if nothing overlaps. Gaps are those of the next
+    /// Fills the displacement problem; whether anything overlaps. Gaps are those of the next
     /// midpoint.
     template <class Law>
     bool pose_problem(const StepData<Dim, Law>& data) {
@@ -95,12 +97,11 @@ class GapCorrection {
             problem_.free_velocity[c][0] = gap < 0.0 ? params.fraction * gap : gap;
             overlap = overlap || gap < 0.0;
         }
-        if (!overlap) return false;
         problem_.jacobian.make_room(n);
         problem_.jacobian = data.problem.jacobian;
         problem_.inverse_mass = data.problem.inverse_mass;
         problem_.laws.resize(n);
-        return true;
+        return overlap;
     }
 
     template <class Law, class ShapeType>
@@ -122,7 +123,6 @@ class GapCorrection {
     }
 
     double budget_ = 0.0;
-    SolveReport report_;
     ContactProblem<Dim, Signorini<Dim>> problem_;
     GaussSeidel<Dim, Signorini<Dim>> solver_;
     std::vector<Vector<Dim>> impulse_;

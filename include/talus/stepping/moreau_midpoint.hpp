@@ -132,6 +132,7 @@ class MoreauMidpoint {
     void hold_moving_surfaces(const SystemType& system, Data& data);
     void evaluate_forces(SystemType& system, const StepParams& params, Data& data);
     void assemble_contacts(const SystemType& system, const StepParams& params, Data& data);
+    bool rests(const Data& data, std::size_t c) const;
     static void require_shapes(const SystemType& system);
     static void require_finite_forces(const Data& data);
     static void finish(SystemType& system, Data& data);
@@ -344,12 +345,20 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
     for (std::size_t c = 0; c < data.contact_count(); ++c) {
         const double way = anticipated_velocity(data.contacts.gap[c], data.h);
         if (!(way > 0.0)) continue;
-        // What comes faster than its gap allows is about to bounce.
-        if (bounces<Dim>(data.problem.laws[c]) &&
-            (!by_rule || relative_velocity<Dim>(data.problem.jacobian, c, data.begin)[0] < -way))
-            continue;
+        if (bounces<Dim>(data.problem.laws[c]) && !(by_rule && rests(data, c))) continue;
         data.problem.free_velocity[c][0] += way;
     }
+}
+
+/// Whether a contact approaches no faster than loads alone make it within a step: it has no speed
+/// to return.
+template <int Dim, ContactLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad, class Hooks>
+bool MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks>::rests(const Data& data,
+                                                              std::size_t c) const {
+    const ContactKey& key = data.contacts.key[c];
+    const double fall =
+        std::max(fall_[static_cast<std::size_t>(key.a)], fall_[static_cast<std::size_t>(key.b)]);
+    return -data.h * relative_velocity<Dim>(data.problem.jacobian, c, data.begin)[0] <= fall;
 }
 
 TALUS_OF_STEP::finish(SystemType& system, Data& data) {
