@@ -126,8 +126,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(own_shapes_are_known_by_their_box_unless_they_say,
     BOOST_TEST(talus::half_thickness<Dim>(Own(telling)) == 0.5e-3);
     BOOST_TEST(talus::half_thickness<Dim>(Own(silent)) == 0.5e-3,
                boost::test_tools::tolerance(1e-10));
-    // What divides by it must not meet zero or NaN.
-    for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    for (const double wrong : {-1.0, std::numeric_limits<double>::quiet_NaN()})
         BOOST_CHECK_EXCEPTION(
             talus::half_thickness<Dim>(Own(TellingSheet<Dim>{{2.0 * wrong}})), talus::input_error,
             [](const auto& e) {
@@ -178,6 +177,22 @@ BOOST_AUTO_TEST_CASE(polygons_are_measured_exactly_and_polyhedra_between_width_a
     const double turned = talus::half_thickness<3>(sliver.placed(obliquely<3>()));
     BOOST_TEST(turned >= 0.05 * (1.0 - rounding));
     BOOST_TEST(turned < 0.1);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_needle_has_none, D, dimensions) {
+    constexpr int Dim = D::value;
+    struct Needle {
+        talus::Aabb<Dim> aabb(const talus::Pose<Dim>& pose) const {
+            const talus::Vector<Dim> end = pose.point_world(talus::Vector<Dim>::Unit(0));
+            return {pose.position.cwiseMin(end), pose.position.cwiseMax(end)};
+        }
+    };
+    BOOST_TEST(talus::half_thickness<Dim>(Needle{}) == 0.0);
+    struct Wrong : talus::Ball<Dim> {
+        using talus::Ball<Dim>::Ball;
+        double half_thickness() const { return -1.0; }
+    };
+    BOOST_CHECK_THROW(talus::half_thickness<Dim>(Wrong(0.1)), talus::input_error);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
