@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -22,7 +21,7 @@ namespace detail {
 }
 
 inline bool equal_numbers(const double* x, const double* y, std::size_t count) {
-    return std::memcmp(x, y, count * sizeof(double)) == 0;
+    return std::equal(x, x + count, y);
 }
 
 /// How far `x` is from the segment between two points.
@@ -109,7 +108,7 @@ struct PlacedState {
     static PlacedState of(const Bodies<Dim>& bodies, std::size_t i) {
         return {bodies.position[i], bodies.rotation[i], bodies.velocity[i], bodies.spin[i]};
     }
-    /// Bit for bit.
+    /// Number for number: a velocity of zero may be reversed.
     bool is_of(const Bodies<Dim>& bodies, std::size_t i) const {
         using detail::equal_numbers;
         constexpr std::size_t spins = Dim * (Dim - 1) / 2;
