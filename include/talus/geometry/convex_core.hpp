@@ -213,9 +213,9 @@ double core_half_thickness(const CoreView<Dim>& core) {
 }
 
 /// Half the thickness of a shape at its thinnest part [m]: what it says by a member
-/// `half_thickness()`, which must not be negative; of other rounded cores as above; of what tells no
-/// more than its box half the least side of that, in the frame of the shape. Infinite for what has
-/// no other side.
+/// `half_thickness()`, which must not be negative; of other rounded cores as above; of what tells
+/// no more than its box half the least side of that, in the frame of the shape. Infinite for what
+/// has no other side.
 template <int Dim, Shape<Dim> S>
 double half_thickness(const S& shape) {
     if constexpr (requires { shape.half_thickness(); }) {
