@@ -32,6 +32,7 @@ struct Options {
     bool list = false;
     bool mutants = false, few_mutants = false;
     std::string solver = usual_solver;
+    std::string scheme;  ///< empty: each case's own
     double patience = 1.0;
     std::string output = "report.json";
     std::string commit, command;
@@ -214,6 +215,7 @@ void write(const Options& options, const std::vector<Result>& results, ordered_j
                                 {"dim", options.dim},
                                 {"jobs", options.jobs},
                                 {"solver", options.solver},
+                                {"scheme", options.scheme},
                                 {"seed", options.seed}}},
                               {"summary",
                                {{"cases", cases.size()},
@@ -242,7 +244,10 @@ int run(const Options& options) {
         return 2;
     }
     const auto start = std::chrono::steady_clock::now();
-    const RunOptions run_options{options.jobs, options.full, options.seed, options.solver};
+    RunOptions run_options{options.jobs, options.full, options.seed, options.solver};
+    if (!options.scheme.empty())
+        run_options.scheme = options.scheme == "midpoint" ? talus::Scheme::midpoint
+                                                          : talus::Scheme::gap_anticipating;
     const Progress progress;
     std::size_t done = 0;
     const std::vector<Result> results =
@@ -312,6 +317,8 @@ int main(int argc, char** argv) {
     app.add_flag("--list", options.list, "list the cases and stop");
     app.add_option("--solver", options.solver, "that the cases run with")
         ->check(CLI::IsMember(solver_names()));
+    app.add_option("--scheme", options.scheme, "in place of the one that each case chooses")
+        ->check(CLI::IsMember({"midpoint", "gap_anticipating"}));
     app.add_flag("--mutants", options.mutants,
                  "put each fault into the method and see who notices");
     app.add_flag("--few-mutants", options.few_mutants,

@@ -97,8 +97,8 @@ std::vector<Result> run_all(const std::vector<Job>& jobs, const RunOptions& opti
     std::vector<Result> results(jobs.size());
     std::mutex mutex;
     in_parallel(jobs.size(), options.jobs, [&](std::size_t k) {
-        Result result =
-            run_one(jobs[k], {Fault::none, options.full, false, options.seed, options.solver});
+        Result result = run_one(jobs[k], {Fault::none, options.full, false, options.seed,
+                                          options.solver, options.scheme});
         const std::lock_guard lock(mutex);
         results[k] = std::move(result);
         done(k, results[k]);

@@ -46,6 +46,7 @@ struct RunOptions {
     bool full = false;
     std::uint64_t seed = 1;
     std::string solver = usual_solver;
+    std::optional<talus::Scheme> scheme = {};  ///< in place of the one that each case chooses
 };
 
 /// One thing to run.

@@ -178,9 +178,10 @@ World<Dim> Trial<Dim>::world(const WorldParams<Dim>& params, talus::MaterialTabl
         listener.after_first_step = [this](const World<Dim>& w) {
             if (draws()) draw(w);
         };
-    WorldParams<Dim> with_solver = params;
-    with_solver.solver_name = solver_name();
-    return World<Dim>(with_solver, std::move(laws), fault(), std::move(listener));
+    WorldParams<Dim> chosen = params;
+    chosen.solver_name = solver_name();
+    chosen.step.scheme = params_.scheme.value_or(params.step.scheme);
+    return World<Dim>(chosen, std::move(laws), fault(), std::move(listener));
 }
 
 template <int Dim>

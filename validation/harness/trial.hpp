@@ -7,6 +7,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -113,6 +114,7 @@ struct TrialParams {
     bool stop_at_failure = false;  ///< throw Caught
     std::uint64_t seed = 1;
     std::string solver = usual_solver;
+    std::optional<talus::Scheme> scheme = {};  ///< in place of the one that each case chooses
 };
 
 /// What a case records while it runs, without regard to the dimension.

@@ -67,7 +67,7 @@ class InnerHull {
     /// A simplex of points far from each other. There is none, and no facet, if A - B is flat: then
     /// the direction across has been tried.
     void begin() {
-        std::array<Vector<Dim>, 2 * Dim> w;
+        std::array<Vector<Dim>, 2 * static_cast<std::size_t>(Dim)> w;
         for (std::size_t i = 0; i < w.size(); ++i)
             w[i] = farthest((i % 2 == 0 ? 1.0 : -1.0) * Vector<Dim>::Unit(static_cast<int>(i / 2)));
         for (const Vector<Dim>& p : w)
