@@ -180,7 +180,7 @@ World<Dim> Trial<Dim>::world(const WorldParams<Dim>& params, talus::MaterialTabl
         };
     WorldParams<Dim> chosen = params;
     chosen.solver_name = solver_name();
-    chosen.step.scheme = params_.scheme.value_or(params.step.scheme);
+    chosen.step.scheme = this->scheme().value_or(params.step.scheme);
     return World<Dim>(chosen, std::move(laws), fault(), std::move(listener));
 }
 

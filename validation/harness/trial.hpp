@@ -125,6 +125,7 @@ class TrialRecord {
     bool full() const { return params_.full; }
     Fault fault() const { return params_.fault; }
     const std::string& solver_name() const { return params_.solver; }
+    std::optional<talus::Scheme> scheme() const { return params_.scheme; }
     bool faulty(Fault fault) const { return params_.fault == fault; }
     /// A generator for the k-th realisation; the same for the same seed of the run.
     std::mt19937_64 rng(std::uint64_t k = 0) const;
