@@ -116,7 +116,8 @@ const Register b01(
          "exceeds √{2 g H} by less than g h / 2.",
      .source = "Moreau 1988.",
      .catches = {Fault::loose_contact, Fault::begin_point, Fault::end_point_drift,
-                 Fault::restitution_weight, Fault::stale_candidates}},
+                 Fault::restitution_weight, Fault::stale_candidates},
+     .midpoint_because = "It states the midpoint scheme's own steps around the impact."},
     run<2>, run<3>, __FILE__);
 
 }  // namespace B01

@@ -205,7 +205,8 @@ const Register e11(
             "average only: the error is of first order and irregular. The step in which the "
             "contact opened last is not compared; it converges slowly.",
      .source = "Classical; two phases for finite friction.",
-     .catches = {Fault::begin_point, Fault::friction_off}},
+     .catches = {Fault::begin_point, Fault::friction_off},
+     .midpoint_because = "It states the midpoint scheme's own steps up to the loss of contact."},
     run<2>, run<3>, __FILE__);
 
 }  // namespace E11

@@ -105,7 +105,9 @@ const Register g24(
             "rest with friction it is zero where the heap holds. Velocities answer to the residual "
             "by a factor of the heap's softest motion, a thousand here.",
      .source = "Moreau 1988; derived.",
-     .catches = {Fault::residual_ignored}},
+     .catches = {Fault::residual_ignored},
+     .midpoint_because = "In space the pile that the other scheme leaves takes Gauss-Seidel more "
+                         "than its 200,000 sweeps."},
     run<2>, run<3>, __FILE__);
 
 }  // namespace G24

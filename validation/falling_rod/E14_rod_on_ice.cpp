@@ -154,7 +154,8 @@ const Register e14(
             "the floor leave errors of second order, irregular, whose mean over sixteen starts "
             "shifted by fractions of a step is fitted.",
      .source = "Classical.",
-     .catches = {Fault::tilted_normal, Fault::short_arm, Fault::begin_point}},
+     .catches = {Fault::tilted_normal, Fault::short_arm, Fault::begin_point},
+     .midpoint_because = "It states the midpoint scheme's own steps up to the landing."},
     run<2>, run<3>, __FILE__);
 
 }  // namespace E14

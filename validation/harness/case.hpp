@@ -23,6 +23,9 @@ struct CaseText {
     std::string why;             ///< why this class and these bounds
     std::string source;          ///< of the reference
     std::vector<Fault> catches;  ///< faults that this case must notice, at least one
+    /// Why it is one of the midpoint scheme alone; empty: it holds in either (validation/run
+    /// --scheme).
+    std::string midpoint_because = {};
 };
 
 /// A case with the functions that try it; one of them may be missing.

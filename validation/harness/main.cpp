@@ -43,6 +43,7 @@ std::vector<Job> chosen(const Options& options) {
     std::vector<Job> jobs;
     for (const Case& c : all_cases()) {
         if (c.text.gate > (options.full ? 3 : options.gate)) continue;
+        if (options.scheme == "gap_anticipating" && !c.text.midpoint_because.empty()) continue;
         const std::string text = c.text.id + " " + c.text.name + " " + c.family;
         if (!options.filter.empty() && !std::regex_search(text, pattern)) continue;
         for (const int dim : c.dims())

@@ -153,7 +153,8 @@ const Register c09(
             "steps fall, and the limit problem has several. The bounds are those of the "
             "catalogue.",
      .source = "Stewart 1998, 2000; Génot & Brogliato 1999; Or & Rimon 2012.",
-     .catches = {Fault::friction_off, Fault::short_arm}},
+     .catches = {Fault::friction_off, Fault::short_arm},
+     .midpoint_because = "The step in which the tip jams and jumps is the midpoint scheme's."},
     run<2>, run<3>, __FILE__);
 
 }  // namespace C09
