@@ -7,6 +7,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "common/dimensions.hpp"
+#include "common/ellipsoid.hpp"
 #include "common/random_geometry.hpp"
 #include "stepping/experiment.hpp"
 
@@ -23,21 +24,6 @@ struct Bead {
     }
     talus::Aabb<Dim> aabb(const talus::Pose<Dim>& pose) const {
         return talus::Aabb<Dim>{pose.position, pose.position}.expanded(radius);
-    }
-};
-
-template <int Dim>
-struct Pebble {
-    talus::Vector<Dim> semi_axes;
-
-    talus::Vector<Dim> support(const talus::Vector<Dim>& d) const {
-        const talus::Vector<Dim> scaled = semi_axes.cwiseProduct(d);
-        return semi_axes.cwiseProduct(scaled) / scaled.norm();
-    }
-    talus::Aabb<Dim> aabb(const talus::Pose<Dim>& pose) const {
-        const talus::Matrix<Dim> r = pose.rotation.matrix();
-        const talus::Vector<Dim> half = (r * semi_axes.asDiagonal()).rowwise().norm();
-        return {pose.position - half, pose.position + half};
     }
 };
 
@@ -159,7 +145,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_pebble_meets_a_face_below_its_lowest_point, D, d
     talus::Vector<Dim> axes = talus::Vector<Dim>::Constant(0.07);
     axes[0] = 0.1;
     axes[Dim - 1] = 0.05;
-    const Pebble<Dim> pebble{axes};
+    const Ellipsoid<Dim> pebble{axes};
     const talus::Vector<Dim> up = talus::Vector<Dim>::Unit(Dim - 1);
     for (const double width : {0.4, 1.0, 10.0, 100.0})
         for (const double gap : {1e-3, 1e-6, -1e-6, -1e-3, -1e-2, -0.04})

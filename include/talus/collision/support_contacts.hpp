@@ -18,8 +18,8 @@ namespace talus {
 namespace detail {
 
 /// The hull of some points of A - B, grown by supports where it comes nearest to the origin (the
-/// expanding polytope): no direction has a depth below the least distance of its facets, so that
-/// none is missed, however flat the sets.
+/// expanding polytope [VanDenBergen2001]): no direction has a depth below the least distance of its
+/// facets, so that none is missed, however flat the sets.
 template <int Dim, class Support>
 class InnerHull {
   public:
