@@ -60,7 +60,8 @@ void run(Trial<Dim>& trial) {
             auto world = deposit.make(trial,
                                       {.h = steps[k],
                                        .contact = law<Dim>(0.3),
-                                       .solver = {.max_sweeps = 2000, .tolerance = 1e-4}},
+                                       .solver = {.max_sweeps = 2000, .tolerance = 1e-4},
+                                       .solver_name = "momentum_gauss_seidel"},
                                       static_cast<std::uint64_t>(seed));
             world.run(0.5);
             seen[k].push_back(averages<Dim>(world, deposit));

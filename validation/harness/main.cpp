@@ -31,8 +31,7 @@ struct Options {
     std::uint64_t seed = 1;
     bool list = false;
     bool mutants = false, few_mutants = false;
-    std::string solver = usual_solver;
-    std::string scheme;  ///< empty: each case's own
+    std::string solver, scheme;  ///< empty: each case's own
     double patience = 1.0;
     std::string output = "report.json";
     std::string commit, command;
@@ -316,7 +315,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--seed", options.seed, "of all random realisations")->capture_default_str();
     app.add_flag("--list", options.list, "list the cases and stop");
-    app.add_option("--solver", options.solver, "that the cases run with")
+    app.add_option("--solver", options.solver, "in place of the one that each case chooses")
         ->check(CLI::IsMember(solver_names()));
     app.add_option("--scheme", options.scheme, "in place of the one that each case chooses")
         ->check(CLI::IsMember({"midpoint", "gap_anticipating"}));

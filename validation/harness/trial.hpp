@@ -113,7 +113,7 @@ struct TrialParams {
     bool full = false;             ///< the longer ranges of parameters
     bool stop_at_failure = false;  ///< throw Caught
     std::uint64_t seed = 1;
-    std::string solver = usual_solver;
+    std::string solver = {};  ///< in place of the one that each case chooses; empty: that one
     std::optional<talus::Scheme> scheme = {};  ///< in place of the one that each case chooses
 };
 
@@ -124,7 +124,10 @@ class TrialRecord {
 
     bool full() const { return params_.full; }
     Fault fault() const { return params_.fault; }
-    const std::string& solver_name() const { return params_.solver; }
+    /// The solver of a case that chooses none.
+    std::string solver_name() const {
+        return params_.solver.empty() ? usual_solver : params_.solver;
+    }
     std::optional<talus::Scheme> scheme() const { return params_.scheme; }
     bool faulty(Fault fault) const { return params_.fault == fault; }
     /// A generator for the k-th realisation; the same for the same seed of the run.

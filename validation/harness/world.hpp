@@ -27,8 +27,8 @@ using Equilibrium = talus::EquilibriumReport<Dim, Law<Dim>>;
 template <int Dim>
 using Problem = talus::ContactProblem<Dim, Law<Dim>>;
 
-/// The solver that cases run with unless told otherwise, with all its parameters; others, by their
-/// names in the library's registry, take its tolerance and its limit of iterations. Faults are
+/// The solver of a case that names no other, with all its parameters; others, by their names in
+/// the library's registry, take its tolerance and its limit of iterations. Faults are
 /// always put into this one.
 inline constexpr const char* usual_solver = "gauss_seidel";
 /// All names.
@@ -42,7 +42,7 @@ struct WorldParams {
     V<Dim> gravity = -g * up<Dim>();  ///< [m/s^2]
     talus::StepParams step = {.contact_tolerance = touching};
     talus::GaussSeidelParams solver = {.max_sweeps = 2000, .tolerance = 1e-14};
-    std::string solver_name = usual_solver;  ///< set by the trial
+    std::string solver_name = usual_solver;  ///< unless the run names one
     bool prepares = false;  ///< makes a state for another world: its residuals are not judged
 };
 
