@@ -45,7 +45,7 @@ struct RunOptions {
     int jobs = 1;
     bool full = false;
     std::uint64_t seed = 1;
-    std::string solver = {};  ///< empty: each case's own
+    std::string solver = {};                   ///< empty: each case's own
     std::optional<talus::Scheme> scheme = {};  ///< in place of the one that each case chooses
 };
 
