@@ -63,6 +63,20 @@ talus::ContactPoint<Dim> contact(const A& a, const talus::Pose<Dim>& at_a, const
     return found[0];
 }
 
+// A query for overlaps deeper than some depth alone.
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_margin_below_zero_keeps_what_is_deeper, D, dimensions) {
+    constexpr int Dim = D::value;
+    const auto shift = 0.12 * talus::Vector<Dim>::Unit(0);
+    for (const double margin : {-0.05, -0.1}) {
+        std::vector<talus::ContactPoint<Dim>> found, exact;
+        talus::contact_points<Dim>(Bead<Dim>{0.1}, {}, Bead<Dim>{0.1}, {shift, {}}, margin, found);
+        talus::contact_points<Dim>(talus::Ball<Dim>{0.1}, {}, talus::Ball<Dim>{0.1}, {shift, {}},
+                                   margin, exact);
+        BOOST_TEST(found.size() == exact.size());
+        BOOST_TEST(found.size() == (margin == -0.05 ? 1u : 0u));
+    }
+}
+
 /// Contacts of a bead with `base`, at random places all around it and of given gap, against those
 /// of a ball in its place, which are in closed form.
 template <int Dim, class Base>

@@ -158,7 +158,8 @@ std::vector<Cell> run_mutants(const std::vector<Job>& jobs, const std::vector<Re
     in_parallel(cells.size(), options.jobs, [&](std::size_t k) {
         Cell cell = cells[k];
         const Result result =
-            run_one({cell.of, cell.dim}, {cell.fault, options.full, true, options.seed});
+            run_one({cell.of, cell.dim},
+                    {cell.fault, options.full, true, options.seed, options.solver, options.scheme});
         cell.caught = result.verdict != Verdict::passed;
         cell.by = result.verdict == Verdict::error ? "exception: " + result.error : result.error;
         // The residual is added on closing, without a throw from within the case.

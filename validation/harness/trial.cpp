@@ -179,7 +179,7 @@ World<Dim> Trial<Dim>::world(const WorldParams<Dim>& params, talus::MaterialTabl
             if (draws()) draw(w);
         };
     WorldParams<Dim> chosen = params;
-    if (!params_.solver.empty()) chosen.solver_name = params_.solver;
+    chosen.solver_name = solver_name(params.solver_name);
     chosen.step.scheme = this->scheme().value_or(params.step.scheme);
     return World<Dim>(chosen, std::move(laws), fault(), std::move(listener));
 }

@@ -124,9 +124,9 @@ class TrialRecord {
 
     bool full() const { return params_.full; }
     Fault fault() const { return params_.fault; }
-    /// The solver of a case that chooses none.
-    std::string solver_name() const {
-        return params_.solver.empty() ? usual_solver : params_.solver;
+    /// The solver of a case that chooses `own`.
+    std::string solver_name(const std::string& own = usual_solver) const {
+        return params_.solver.empty() ? own : params_.solver;
     }
     std::optional<talus::Scheme> scheme() const { return params_.scheme; }
     bool faulty(Fault fault) const { return params_.fault == fault; }

@@ -29,14 +29,17 @@ class InnerHull {
     Vector<Dim> best_direction() {
         begin();
         while (facet_count_ > 0 && point_count_ < capacity) {
-            const Facet nearest = *std::min_element(
-                facets_.data(), facets_.data() + facet_count_,
+            Facet* const first = facets_.data();
+            Facet* const found = std::min_element(
+                first, first + facet_count_,
                 [](const Facet& f, const Facet& g) { return f.distance < g.distance; });
+            const Facet nearest = *found;
             if (nearest.distance >= (1.0 - accuracy) * best_depth_) break;
             const Vector<Dim> w = farthest(nearest.normal);
             // A facet of A - B itself: what is left of its depth is rounding.
             if (!(nearest.normal.dot(w) - nearest.distance > rounding * size_)) break;
-            grow(w);
+            std::swap(*found, facets_[--facet_count_]);
+            grow(nearest, w);
         }
         return best_;
     }
@@ -124,41 +127,30 @@ class InnerHull {
         n.normalize();
         return {c, n, n.dot(points_[c[0]])};
     }
-    /// Facets that the new point is outside of give way to those that join it with their outline.
-    void grow(const Vector<Dim>& w) {
-        using Ridge = std::array<std::size_t, 2>;
-        std::array<Ridge, Dim == 2 ? 4 * capacity : 6 * capacity> outline;
-        std::size_t outline_count = 0, kept = 0;
-        // What two of them share comes once either way round, and is no part of the outline.
-        const auto toggle = [&](const Ridge& r, const Ridge& reverse) {
-            for (std::size_t i = 0; i < outline_count; ++i)
-                if (outline[i] == reverse) {
-                    outline[i] = outline[--outline_count];
-                    return;
+    /// The facet `from`, which is taken out already, and those around it that the new point is
+    /// outside of as well give way to those that join it with their outline. Only what hangs
+    /// together: where rounding shows the point outside of other facets, which are flush with it,
+    /// an outline of their own would be joined the wrong way round.
+    void grow(const Facet& from, const Vector<Dim>& w) {
+        outline_count_ = 0;
+        add_to_outline(from);
+        for (bool more = true; more;) {
+            more = false;
+            for (std::size_t i = 0; i < facet_count_;) {
+                const Facet f = facets_[i];
+                if (!(f.normal.dot(w) > f.distance) || !borders_outline(f)) {
+                    ++i;
+                    continue;
                 }
-            outline[outline_count++] = r;
-        };
-        for (std::size_t i = 0; i < facet_count_; ++i) {
-            const Facet f = facets_[i];
-            if (!(f.normal.dot(w) > f.distance)) {
-                facets_[kept++] = f;
-                continue;
-            }
-            if constexpr (Dim == 2) {
-                toggle({f.corner[0], 0}, {f.corner[0], 1});
-                toggle({f.corner[1], 1}, {f.corner[1], 0});
-            } else {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::size_t p = f.corner[k], q = f.corner[(k + 1) % 3];
-                    toggle({p, q}, {q, p});
-                }
+                add_to_outline(f);
+                facets_[i] = facets_[--facet_count_];
+                more = true;
             }
         }
-        facet_count_ = kept;
         const std::size_t added = point_count_++;
         points_[added] = w;
-        for (std::size_t i = 0; i < outline_count && facet_count_ < facets_.size(); ++i) {
-            const auto [p, q] = outline[i];
+        for (std::size_t i = 0; i < outline_count_ && facet_count_ < facets_.size(); ++i) {
+            const auto [p, q] = outline_[i];
             if constexpr (Dim == 2)
                 facets_[facet_count_++] = q == 0 ? facet({p, added}) : facet({added, p});
             else
@@ -166,10 +158,47 @@ class InnerHull {
         }
     }
 
+    /// What two facets share, the one way round in one of them and the other in the other: an edge
+    /// from corner to corner; in the plane a corner, at the first or the second place.
+    using Ridge = std::array<std::size_t, 2>;
+    static std::array<Ridge, Dim> ridges(const Facet& f) {
+        if constexpr (Dim == 2)
+            return {Ridge{f.corner[0], 0}, Ridge{f.corner[1], 1}};
+        else
+            return {Ridge{f.corner[0], f.corner[1]}, Ridge{f.corner[1], f.corner[2]},
+                    Ridge{f.corner[2], f.corner[0]}};
+    }
+    static Ridge reversed(const Ridge& r) {
+        if constexpr (Dim == 2)
+            return {r[0], 1 - r[1]};
+        else
+            return {r[1], r[0]};
+    }
+    /// Where the outline has it; its end if it has not.
+    Ridge* in_outline(const Ridge& r) {
+        return std::find(outline_.data(), outline_.data() + outline_count_, r);
+    }
+    bool borders_outline(const Facet& f) {
+        for (const Ridge& r : ridges(f))
+            if (in_outline(reversed(r)) != outline_.data() + outline_count_) return true;
+        return false;
+    }
+    /// What the facet shares with one that the outline surrounds is no part of it any more.
+    void add_to_outline(const Facet& f) {
+        for (const Ridge& r : ridges(f)) {
+            Ridge* const other = in_outline(reversed(r));
+            if (other != outline_.data() + outline_count_)
+                *other = outline_[--outline_count_];
+            else if (outline_count_ < outline_.size())
+                outline_[outline_count_++] = r;
+        }
+    }
+
     const Support& support_;
     std::array<Vector<Dim>, capacity> points_;
     std::array<Facet, 2 * capacity> facets_;
-    std::size_t point_count_ = 0, facet_count_ = 0;
+    std::array<Ridge, 6 * capacity> outline_;
+    std::size_t point_count_ = 0, facet_count_ = 0, outline_count_ = 0;
     double size_ = 0.0;
     Vector<Dim> best_ = Vector<Dim>::Unit(0);
     double best_depth_ = std::numeric_limits<double>::infinity();
@@ -304,7 +333,7 @@ void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
     };
     // Far apart the nearest points are good as they are; nearer, their rounding shows in the
     // normal.
-    if (near.distance > margin + 1e-6 * size) return;
+    if (near.distance > std::max(margin, 0.0) + 1e-6 * size) return;
     const detail::Overlap<Dim, decltype(support)> overlap(support, size);
     if (near.distance > overlap.away())
         return add({near.a, near.b}, near.apart / near.distance, near.distance);

@@ -3,12 +3,15 @@
 
 #include <talus/dynamics/bodies.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace talus {
 
-/// A copy of the state q, u of all bodies, to go back to when something fails on the way. Allocates
-/// only for more bodies than ever before.
+/// A copy of the state q, u of all bodies, to go back to when something fails on the way, and their
+/// number: bodies that were added since are taken off again. Allocates only for more bodies than
+/// ever before.
 template <int Dim>
 requires SpaceDimension<Dim>
 class KeptState {
@@ -25,6 +28,10 @@ class KeptState {
         bodies.rotation.swap(rotation_);
         bodies.velocity.swap(velocity_);
         bodies.spin.swap(spin_);
+        const std::size_t n = bodies.count();
+        bodies.inverse_mass.resize(std::min(n, bodies.inverse_mass.size()));
+        bodies.inverse_inertia.resize(std::min(n, bodies.inverse_inertia.size()));
+        bodies.material.resize(std::min(n, bodies.material.size()));
     }
 
   private:

@@ -26,7 +26,8 @@ requires(Shape<S, Dim> && sizeof...(Others) > 0) struct FirstNoShape<Dim, S, Oth
 
 /// As std::visit, for less work of the compiler.
 template <class... Shapes, class Question>
-void ask(const std::variant<Shapes...>& held, const Question& question) {
+void visit_held(const std::variant<Shapes...>& held, const Question& question) {
+    TALUS_CHECK(!held.valueless_by_exception(), "a shape whose assignment threw is not used");
     [&]<std::size_t... I>(std::index_sequence<I...>) {
         ((held.index() == I ? question(*std::get_if<I>(&held)) : void()), ...);
     }
@@ -50,7 +51,7 @@ class AnyShapeOf {
 
     Aabb<Dim> aabb(const Pose<Dim>& pose) const {
         Aabb<Dim> box;
-        detail::ask(held_, [&](const auto& s) { box = s.aabb(pose); });
+        detail::visit_held(held_, [&](const auto& s) { box = s.aabb(pose); });
         return box;
     }
     MassProperties<Dim> mass_properties() const {
@@ -72,7 +73,7 @@ class AnyShapeOf {
     /// Of the shape that is held [m].
     double half_thickness() const {
         double half = 0.0;
-        detail::ask(held_, [&](const auto& s) { half = talus::half_thickness<Dim>(s); });
+        detail::visit_held(held_, [&](const auto& s) { half = talus::half_thickness<Dim>(s); });
         return half;
     }
 

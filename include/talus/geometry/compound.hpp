@@ -33,7 +33,7 @@ template <int Dim, Shape<Dim> S>
 BoundingBall<Dim> bounding_ball(const S& shape) {
     if constexpr (is_any_shape<S>) {
         BoundingBall<Dim> ball;
-        detail::ask(shape.held(), [&](const auto& s) { ball = bounding_ball<Dim>(s); });
+        detail::visit_held(shape.held(), [&](const auto& s) { ball = bounding_ball<Dim>(s); });
         return ball;
     } else if constexpr (CoreShape<S, Dim>) {
         const CoreView<Dim> core = shape.core();

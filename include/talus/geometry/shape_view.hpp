@@ -111,7 +111,7 @@ template <int Dim, Shape<Dim> S>
 ShapeView<Dim> view_of(const S& shape) {
     if constexpr (is_any_shape<S>) {
         ShapeView<Dim> view{};
-        detail::ask(shape.held(), [&](const auto& held) { view = view_of<Dim>(held); });
+        detail::visit_held(shape.held(), [&](const auto& held) { view = view_of<Dim>(held); });
         return view;
     } else {
         return {&shape, &shape_access<Dim, S>};

@@ -189,8 +189,9 @@ class ContactScales {
 /// Why zeta beside it. An error of a velocity v costs eta only v sqrt(rho_c): where a light grain
 /// carries a heavy one, rho_c is the light one's, and the heavy one may fall freely with an eta of
 /// the root of the ratio of masses. |r_c - f_c| / rho_c is the velocity by which contact c violates
-/// its law; with friction above mu = 0.8 the larger of it and of s_c / rho_c, half the violation
-/// that the natural map hides on a steep cone (FrictionCone::steep_error). V_c is the largest of
+/// its law; with Coulomb friction above mu = 0.8 the larger of it and of s_c / rho_c, half the
+/// violation that the natural map hides on a steep cone (FrictionCone::steep_error; laws without a
+/// `steep_error`, as RollingCoulomb, are judged by their natural map alone). V_c is the largest of
 /// the first kind that there would be without any impulse, among the contacts of its island: those
 /// that chains of free bodies connect with it. For bodies at rest under gravity V is h g, and never
 /// less than a thousandth of the largest u_free of the island, so that contacts which separate by

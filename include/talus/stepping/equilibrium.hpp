@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/input.hpp>
 #include <talus/problem/islands.hpp>
-#include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
-#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
+#include <talus/stepping/simulation_types.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -88,26 +86,50 @@ std::vector<double> point_speeds(const System<Dim, Law, ShapeType>& system,
     return speed;
 }
 
-/// The largest ratio, over islands of bodies, of the largest of `speed` to the largest of `load`.
+/// How fast bodies move that contacts connect.
+struct IslandSpeed {
+    double relative = 0.0;  ///< largest speed over the largest that loads alone would give [-]
+    /// How many times its own size an error of the forces may show in the velocities: along a chain
+    /// of n contacts, as in a tower, some n^2 times (the condition of its W). Where it shows more,
+    /// near a threshold, the residual of an undecided answer tells.
+    double amplification = 100.0;
+
+    double over_errors() const { return relative / amplification; }
+};
+
+/// Of the islands of bodies the fastest, and the one that errors of the forces explain least.
+struct IslandSpeeds {
+    IslandSpeed fastest, least_explained;
+};
 template <int Dim>
-double relative_speed(const Bodies<Dim>& bodies, const ContactSet<Dim>& contacts,
-                      std::span<const double> speed, std::span<const double> load) {
+IslandSpeeds island_speeds(const Bodies<Dim>& bodies, const ContactSet<Dim>& contacts,
+                           std::span<const double> speed, std::span<const double> load) {
     Islands islands;
     islands.reset(speed.size());
     for (const ContactKey& key : contacts.key) {
         const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
         if (!bodies.is_obstacle(a) && !bodies.is_obstacle(b)) islands.join(a, b);
     }
-    std::vector<double> most(speed.size(), 0.0), loaded(speed.size(), 0.0);
+    std::vector<double> most(speed.size(), 0.0), loaded(speed.size(), 0.0),
+        count(speed.size(), 0.0);
+    for (const ContactKey& key : contacts.key) {
+        const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
+        count[islands.root(bodies.is_obstacle(a) ? b : a)] += 1.0;
+    }
     for (std::size_t i = 0; i < speed.size(); ++i) {
         const std::size_t island = islands.root(i);
         most[island] = std::max(most[island], speed[i]);
         loaded[island] = std::max(loaded[island], load[i]);
     }
-    double largest = 0.0;
-    for (std::size_t i = 0; i < speed.size(); ++i)
-        if (most[i] > 0.0) largest = std::max(largest, most[i] / loaded[i]);
-    return largest;
+    IslandSpeeds found;
+    for (std::size_t i = 0; i < speed.size(); ++i) {
+        if (!(most[i] > 0.0)) continue;
+        const IslandSpeed island{most[i] / loaded[i], std::max(100.0, count[i] * count[i])};
+        if (island.relative > found.fastest.relative) found.fastest = island;
+        if (island.over_errors() > found.least_explained.over_errors())
+            found.least_explained = island;
+    }
+    return found;
 }
 
 /// Gap of bodies that are in touch but for rounding [m].
@@ -125,12 +147,7 @@ double touching_gap(const System<Dim, Law, ShapeType>& system) {
 
 /// Verdict and reason from the numbers of a report.
 template <int Dim, class Law>
-void decide(EquilibriumReport<Dim, Law>& report, double rest) {
-    // How many times its own size an error of the forces may show in the velocities: along a chain
-    // of n contacts, as in a tower, some n^2 times (the condition of its W). Where it shows more,
-    // near a threshold, the residual of an undecided answer tells.
-    const double contacts = static_cast<double>(report.data.contact_count());
-    const double amplification = std::max(100.0, contacts * contacts);
+void decide(EquilibriumReport<Dim, Law>& report, const IslandSpeed& moving, double rest) {
     const double error = std::max(report.residual, report.data.report.contact_error);
     const std::string found = "bodies move at " + text_of(report.relative_speed) +
                               " of the speed that the loads alone would give, the residual is " +
@@ -141,13 +158,13 @@ void decide(EquilibriumReport<Dim, Law>& report, double rest) {
     } else if (report.relative_speed <= rest && report.residual <= rest) {
         report.verdict = Verdict::equilibrium;
         report.reason = "forces that hold all bodies were found: " + found;
-    } else if (report.relative_speed > std::max(rest, amplification * error)) {
+    } else if (moving.relative > std::max(rest, moving.amplification * error)) {
         report.verdict = Verdict::moving;
         report.reason = "something moves: " + found;
     } else {
         report.reason =
             "the forces are not accurate enough to tell: " + found + ", but must be below " +
-            text_of(rest) + " for rest, and the speed above " + text_of(amplification) +
+            text_of(rest) + " for rest, and the speed above " + text_of(moving.amplification) +
             " times the errors for motion: allow more iterations, or take Automatic, as near "
             "a threshold sweeps converge slowly";
     }
@@ -162,23 +179,25 @@ EquilibriumReport<Dim, Law> one_step(System<Dim, Law, ShapeType> system, const S
     integrator.hooks() = hooks;
     integrator.impulse_cache() = start;
     EquilibriumReport<Dim, Law> report;
-    integrator.step(system, 0.0, params.h, step, solver, report.data);
+    integrator.step(system, system.time(), params.h, step, solver, report.data);
     const StepData<Dim, Law>& data = report.data;
     const std::vector<double> speed = point_speeds<Dim>(system, data.end);
     const std::vector<double> load = point_speeds<Dim>(system, data.free);
     for (const double s : speed) report.speed = std::max(report.speed, s);
     for (const double s : load) report.load_speed = std::max(report.load_speed, s);
-    report.relative_speed = relative_speed<Dim>(system.bodies, data.contacts, speed, load);
+    const IslandSpeeds islands = island_speeds<Dim>(system.bodies, data.contacts, speed, load);
+    report.relative_speed = islands.fastest.relative;
     report.residual = data.report.residual;
-    decide(report, params.rest);
+    decide(report, islands.least_explained, params.rest);
     return report;
 }
 
 }  // namespace detail
 
 /// Whether a configuration is a possible equilibrium, "found in one step": one step from zero
-/// velocity; if the end velocity is zero, the contact forces found agree with equilibrium ([Moreau]
-/// end of section 2.1). The system is not changed. The solver's own tolerance should be `rest` or
+/// velocity of the free bodies, at the time of the system; if the end velocity is zero, the contact
+/// forces found agree with equilibrium ([Moreau] end of section 2.1). Obstacles move as prescribed.
+/// The system is not changed. The solver's own tolerance should be `rest` or
 /// less. `start` offers impulses to begin from (scaled for this h): with self-stress, as in a
 /// jammed wedge, the verdict may depend on it, since both answers are then solutions. `hooks` are
 /// called between the stages of the step.
@@ -192,6 +211,7 @@ requires ContactSolver<Solver, Dim, Law> EquilibriumReport<Dim, Law> equilibrium
     require_non_negative("contact tolerance", tolerance);
     Bodies<Dim>& bodies = system.bodies;
     for (std::size_t i = 0; i < bodies.count(); ++i) {
+        if (bodies.is_obstacle(i)) continue;
         bodies.velocity[i].setZero();
         bodies.spin[i].setZero();
     }
@@ -226,6 +246,3 @@ EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
 }
 
 }  // namespace talus
-
-TALUS_IN_PLANE(class talus::GaussSeidel<2, talus::DefaultLaw<2>>)
-TALUS_IN_SPACE(class talus::GaussSeidel<3, talus::DefaultLaw<3>>)

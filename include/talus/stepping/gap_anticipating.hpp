@@ -44,4 +44,31 @@ bool bounces(const Law& law) {
     }
 }
 
+namespace detail {
+
+/// Pull of a law upon bodies that part at v, without any impulse yet, at an effective mass of 1
+/// [N s].
+template <int Dim, class Law>
+double pull(const Law& law, double v) {
+    Vector<Dim> parting = Vector<Dim>::Zero();
+    parting[0] = v;
+    return -law.natural_map(parting, Vector<Dim>::Zero(), 1.0)[0];
+}
+
+}  // namespace detail
+
+/// Whether a law pulls bodies together that part: its contacts are not anticipated, since it would
+/// reach across the gap.
+template <int Dim, class Law>
+bool attracts(const Law& law) {
+    return detail::pull<Dim>(law, 1.0) > 0.0;
+}
+
+/// Whether it does with any impulse that it takes, as a pin does.
+template <int Dim, class Law>
+bool holds_any_pull(const Law& law) {
+    constexpr double fast = 1e100;  // beyond any cohesion; its square is finite
+    return detail::pull<Dim>(law, fast) >= 0.5 * fast;
+}
+
 }  // namespace talus

@@ -65,8 +65,9 @@ class GapCorrection {
         if (overlap) displace(system, data);
     }
 
-    /// Of the last displacement problem: where it did not converge, bodies have moved by what was
-    /// found, and what is left is seen to in the next step.
+    /// Of the last displacement problem that was solved (none without a `fraction`): where it did
+    /// not converge, bodies have moved by what was found, and what is left is seen to in the next
+    /// step.
     const SolveReport& report() const { return solver_.report(); }
     /// Dissipated energy not yet spent on lifting [J].
     double budget() const { return budget_; }

@@ -16,58 +16,19 @@
 #include <talus/stepping/gap_anticipating.hpp>
 #include <talus/stepping/step_data.hpp>
 #include <talus/stepping/step_hooks.hpp>
+#include <talus/stepping/step_params.hpp>
 #include <talus/stepping/system.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace talus {
-
-/// Which contacts a step treats as effective, and what their law is told.
-enum class Scheme {
-    midpoint,          ///< [Moreau] section 2.3: those that are closed at (t_mid, q_mid)
-    gap_anticipating,  ///< also those that the step could close, with g/h + u_n in place of u_n
-};
-
-/// Choices within a step.
-struct StepParams {
-    Scheme scheme = Scheme::midpoint;  ///< the paper's
-    /// Gap up to which a contact counts as closed [m], see `closed_gap`. The paper's is 0.
-    std::optional<double> contact_tolerance = std::nullopt;
-    /// Whether a contact that `closed_gap` counts as closed may close what is left of its gap.
-    bool gaps_may_close = true;
-    /// The paper's is explicit_term, with which a free top gains energy at every step.
-    Gyroscopic gyroscopic = Gyroscopic::momentum_preserving;
-    /// Widening of the boxes of the broad phase, as a fraction of the mean bounding radius of the
-    /// bodies. Affects speed alone.
-    double skin = 0.2;
-};
-
-/// The gap up to which a contact counts as closed [m]: the contact tolerance, if there is one.
-/// Otherwise it is 0.01 of `fall`, as far as that is between 1e-5 and 1e-3 of `half_thickness`
-/// (System::half_thickness), that of the thinner free body. `fall` is h |u_free - u_begin|, how far
-/// loads alone would take a body's points within the step, g h^2 for its weight: of two bodies the
-/// larger. A tenth of 0.01 of it is what the default solver at its aim of 1e-4 lets bodies at rest
-/// part in a step (ResidualMeasure), and all of it at its tolerance of 1e-3. With 0 such a contact
-/// would be lost in the next one, and with it friction and the moments that hold a wall upright.
-/// Rounding of "exactly" placed bodies is far below it. Where loads take a body farther than a
-/// tenth of its half thickness within a step, the upper end does not leave that room: the step is
-/// too large for such bodies. What counts as closed by this rule is told gap / h + u_n in either
-/// scheme: it may close (unless `gaps_may_close` is off), so that errors of the solver do not add
-/// up until it opens. What counts as closed by a contact tolerance is held as it is, the paper's
-/// way.
-inline double closed_gap(const StepParams& params, double half_thickness, double fall) {
-    constexpr double of_fall = 0.01, least = 1e-5, most = 1e-3;
-    return params.contact_tolerance.value_or(
-        std::clamp(of_fall * fall, least * half_thickness, most * half_thickness));
-}
 
 /// One step of [Moreau] section 2.3, equation (9), stage by stage; owns what the stages share.
 ///
@@ -91,9 +52,8 @@ class MoreauMidpoint {
     template <ContactSolver<Dim, Law> Solver>
     void step(SystemType& system, double t_begin, double h, const StepParams& params,
               Solver& solver, Data& data) {
-        system.begin_step();
+        pose_problem(system, t_begin, h, params, data);
         try {
-            pose_problem(system, t_begin, h, params, data);
             const SolveReport& report =
                 solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
             // As much room as the solver has: no history needs more.
@@ -102,18 +62,18 @@ class MoreauMidpoint {
             complete(system, data);
         } catch (...) {
             undo(system);
-            system.end_step();
             throw;
         }
-        system.end_step();
     }
 
     /// The first half of a step, up to what a solver is given: the problem, and in `data.impulse`
-    /// what it starts from. Free bodies are left at q_mid.
+    /// what it starts from. Free bodies are left at q_mid, and the system within a step: `complete`
+    /// or `undo` must follow. Throws as `step` does.
     void pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
                       Data& data);
     /// The second half, from the impulses that a solver found and what it says of them in
-    /// `data.report`: those of a failed solve may be too large to be remembered.
+    /// `data.report`: those of a failed solve may be too large to be remembered. Where it throws,
+    /// `undo` must follow.
     void complete(SystemType& system, Data& data);
     /// Takes the last step, or what was done of it, back: bodies and remembered impulses are as
     /// before it, bit for bit. Once for each step.
@@ -127,6 +87,7 @@ class MoreauMidpoint {
     const ImpulseCache<Dim>& impulse_cache() const { return cache_; }
 
   private:
+    void pose(SystemType& system, double t_begin, double h, const StepParams& params, Data& data);
     void move_to_midpoint(SystemType& system, Data& data);
     void detect(const SystemType& system, const StepParams& params, Data& data);
     void hold_moving_surfaces(const SystemType& system, Data& data);
@@ -158,7 +119,18 @@ class MoreauMidpoint {
 
 TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
                             Data& data) {
+    system.begin_step();
     kept_ = stored_ = false;
+    try {
+        pose(system, t_begin, h, params, data);
+    } catch (...) {
+        undo(system);
+        throw;
+    }
+}
+
+TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepParams& params,
+                    Data& data) {
     require_shapes(system);
     system.require_obstacles_in_place();
     before_.keep(system.bodies);
@@ -201,6 +173,7 @@ TALUS_OF_STEP::complete(SystemType& system, Data& data) {
     std::swap(cache_, other_cache_);
     h_before_ = std::exchange(last_h_, data.h);
     stored_ = true;
+    system.end_step();
 }
 
 TALUS_OF_STEP::undo(SystemType& system) noexcept {
@@ -213,6 +186,7 @@ TALUS_OF_STEP::undo(SystemType& system) noexcept {
         last_h_ = h_before_;
     }
     kept_ = stored_ = false;
+    system.end_step();
 }
 
 TALUS_OF_STEP::require_shapes(const SystemType& system) {
@@ -281,7 +255,8 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
         const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
         return data.contacts.gap[c] <= closed_gap(params, std::min(thickness(a), thickness(b)),
                                                   std::max(fall_[a], fall_[b])) ||
-               (anticipates && !bounces<Dim>(system.law_of(key)));
+               (anticipates && !bounces<Dim>(system.law_of(key)) &&
+                !attracts<Dim>(system.law_of(key)));
     });
 }
 
@@ -344,7 +319,7 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
     if (params.scheme != Scheme::gap_anticipating && !by_rule) return;
     for (std::size_t c = 0; c < data.contact_count(); ++c) {
         const double way = anticipated_velocity(data.contacts.gap[c], data.h);
-        if (!(way > 0.0)) continue;
+        if (!(way > 0.0) || holds_any_pull<Dim>(data.problem.laws[c])) continue;
         if (bounces<Dim>(data.problem.laws[c]) && !(by_rule && rests(data, c))) continue;
         data.problem.free_velocity[c][0] += way;
     }
@@ -368,10 +343,14 @@ TALUS_OF_STEP::finish(SystemType& system, Data& data) {
         bodies.spin[i] = bodies.rotation[i].spin_body(data.end[i].angular);
     }
     drift(bodies, 0.5 * data.h);
-    for (std::size_t i = 0; i < bodies.count(); ++i)
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
         if (!bodies.position[i].allFinite())
             require_finite(detail::numbered("position after the step of body", i),
                            bodies.position[i]);
+        if (!bodies.rotation[i].matrix().allFinite())
+            require_finite(detail::numbered("rotation after the step of body", i),
+                           bodies.rotation[i].matrix());
+    }
     system.place_obstacles(data.t_end());
 }
 

@@ -135,6 +135,7 @@ inline std::string to_string(const RunSummary& run) {
                 " between bodies " + std::to_string(worst.a) + " and " + std::to_string(worst.b);
         return text;
     };
+    if (run.steps == 0) return "no step was made";
     std::string text = (run.certified() ? "certified: " : "not certified: ") +
                        std::to_string(run.steps) + " steps, " + std::to_string(run.missed) +
                        " missed the tolerance";

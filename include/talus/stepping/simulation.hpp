@@ -148,7 +148,5 @@ auto Simulation<Dim, Types>::step() -> const Data& {
 
 }  // namespace talus
 
-TALUS_IN_PLANE(class talus::AcceleratedGaussSeidel<2, talus::DefaultLaw<2>>)
 TALUS_IN_PLANE(class talus::Simulation<2>)
-TALUS_IN_SPACE(class talus::AcceleratedGaussSeidel<3, talus::DefaultLaw<3>>)
 TALUS_IN_SPACE(class talus::Simulation<3>)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/instantiate.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
 #include <talus/stepping/step_hooks.hpp>
@@ -79,3 +80,6 @@ SolverOf<Dim, Types> default_solver() {
 }
 
 }  // namespace talus
+
+TALUS_IN_PLANE(class talus::AcceleratedGaussSeidel<2, talus::DefaultLaw<2>>)
+TALUS_IN_SPACE(class talus::AcceleratedGaussSeidel<3, talus::DefaultLaw<3>>)

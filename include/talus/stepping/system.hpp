@@ -88,7 +88,7 @@ struct System {
         const BodyIndex body =
             attach(bodies.add_obstacle(motion.pose(time_), motion.twist(time_), material), shape);
         obstacles.push_back({body, std::move(motion)});
-        placed_.push_back(PlacedState<Dim>::of(bodies, static_cast<std::size_t>(body)));
+        placed_.push_back(placed_state(body));
         return body;
     }
 
@@ -97,7 +97,8 @@ struct System {
     /// Of each shape about the body's centre; infinite where it has no bound [m].
     std::span<const double> bounding_radius() const { return bounding_radius_; }
     /// Of each shape at its thinnest part, of compounds the thinnest child
-    /// (talus::half_thickness); infinite for half-spaces [m].
+    /// (talus::half_thickness); infinite for half-spaces; of what has none, as a rod without
+    /// radius, the bounding radius [m].
     std::span<const double> half_thickness() const { return half_thickness_; }
     /// Gives a body another shape, in the body's frame; mass and inertia stay. Throws input_error
     /// if there is no such body.
@@ -128,9 +129,9 @@ struct System {
     /// its way already.
     void begin_step() {
         require_between_steps();
-        in_step_ = true;
+        step_.under_way = true;
     }
-    void end_step() noexcept { in_step_ = false; }
+    void end_step() noexcept { step_.under_way = false; }
 
     /// The law of a contact: that of the two bodies' materials.
     const Law& law_of(const ContactKey& key) const {
@@ -149,11 +150,31 @@ struct System {
     BodyIndex attach(BodyIndex body, ShapeType shape);
     void replace_shape(std::size_t body, ShapeType shape);
     static double radius_of(const ShapeType& shape);
+    static double thickness_of(const ShapeType& shape, double radius) {
+        const double half = talus::half_thickness<Dim>(shape);
+        return half > 0.0 ? half : radius;
+    }
     static std::uint64_t new_version();
 
+    /// Of this system alone: a copy, taken within a step, is in none.
+    struct Step {
+        bool under_way = false;
+        Step() = default;
+        Step(const Step&) noexcept {}
+        Step& operator=(const Step&) noexcept { return *this; }
+    };
+    /// As the motion of an obstacle left its body.
+    struct Placed {
+        BodyIndex body;
+        PlacedState<Dim> state;
+    };
+    Placed placed_state(BodyIndex body) const {
+        return {body, PlacedState<Dim>::of(bodies, static_cast<std::size_t>(body))};
+    }
+
     double time_ = 0.0;
-    bool in_step_ = false;
-    std::vector<PlacedState<Dim>> placed_;  // as obstacles
+    Step step_;
+    std::vector<Placed> placed_;  // in the order of obstacles
     std::vector<ShapeType> shapes_;
     std::vector<double> bounding_radius_, half_thickness_;
     std::uint64_t shapes_version_ = 0;
@@ -176,18 +197,19 @@ template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::set_time(double t) noexcept {
     for (std::size_t k = 0; k < std::min(placed_.size(), obstacles.size()); ++k)
-        placed_[k] = PlacedState<Dim>::of(bodies, static_cast<std::size_t>(obstacles[k].body));
+        placed_[k] = placed_state(obstacles[k].body);
     time_ = t;
 }
 
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::require_obstacles_in_place() const {
-    // A list of obstacles that was written by hand has no record to compare with.
+    // Where the list of obstacles was written by hand there is no record to compare with.
     if (placed_.size() != obstacles.size()) return;
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
         const auto i = static_cast<std::size_t>(obstacles[k].body);
-        if (bodies.is_obstacle(i) && !placed_[k].is_of(bodies, i))
+        const bool recorded = placed_[k].body == obstacles[k].body;
+        if (recorded && bodies.is_obstacle(i) && !placed_[k].state.is_of(bodies, i))
             detail::reject_motion(i, time_,
                                   " does not lead to where the body is or to its velocity, which "
                                   "were changed by hand, but must: change the motion "
@@ -198,7 +220,7 @@ void System<Dim, Law, ShapeType>::require_obstacles_in_place() const {
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::require_between_steps() const {
-    if (in_step_)
+    if (step_.under_way)
         throw input_error(
             "bodies or shapes were changed, or a step begun, within a step, but must be between "
             "steps");
@@ -219,7 +241,7 @@ requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(BodyI
                                                                            ShapeType shape) {
     const double radius = radius_of(shape);
     bounding_radius_.push_back(radius);
-    half_thickness_.push_back(talus::half_thickness<Dim>(shape));
+    half_thickness_.push_back(thickness_of(shape, radius));
     shapes_.push_back(std::move(shape));
     shapes_version_ = new_version();
     if (std::isfinite(radius) && !bodies.is_obstacle(static_cast<std::size_t>(body))) {
@@ -233,7 +255,7 @@ template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::replace_shape(std::size_t body, ShapeType shape) {
     const double radius = radius_of(shape);
-    half_thickness_[body] = talus::half_thickness<Dim>(shape);
+    half_thickness_[body] = thickness_of(shape, radius);
     shapes_[body] = std::move(shape);
     const double old = std::exchange(bounding_radius_[body], radius);
     shapes_version_ = new_version();

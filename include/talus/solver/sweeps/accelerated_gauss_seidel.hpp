@@ -191,7 +191,6 @@ class AcceleratedGaussSeidel {
 };
 
 // Not inline, so that `extern template class` spares a user all of it.
-
 template <int Dim, ContactLaw<Dim> Law>
 const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
                                                            std::span<Vector<Dim>> r) {
@@ -221,6 +220,7 @@ void AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper) {
     const std::span<Vector<Dim>> r = sweeper.r;
     report_.history.clear();
     report_.history.reserve(history_limit);
+    report_.short_of_aim = false;
     // Room for all ways, so that a hard problem needs no more than an easy one as large.
     for (std::vector<Vector<Dim>>* one : {&kept_, &x_, &y_, &own_y_})
         detail::make_room(*one, r.size());

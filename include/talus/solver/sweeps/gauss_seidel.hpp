@@ -7,6 +7,7 @@
 #include <talus/core/observer.hpp>
 #include <talus/core/room.hpp>
 #include <talus/law/coulomb.hpp>
+#include <talus/law/weighted_mean.hpp>
 #include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/delassus_product.hpp>
 #include <talus/solver/concepts.hpp>
@@ -226,4 +227,6 @@ const SolveReport& GaussSeidel<Dim, Law>::solve(DelassusSparse<Dim>& w,
 }  // namespace talus
 
 TALUS_IN_PLANE(class talus::GaussSeidel<2, talus::Coulomb<2>>)
+TALUS_IN_PLANE(class talus::GaussSeidel<2, talus::WeightedMean<2, talus::Coulomb<2>>>)
 TALUS_IN_SPACE(class talus::GaussSeidel<3, talus::Coulomb<3>>)
+TALUS_IN_SPACE(class talus::GaussSeidel<3, talus::WeightedMean<3, talus::Coulomb<3>>>)
