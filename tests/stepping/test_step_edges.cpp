@@ -8,6 +8,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -264,6 +265,125 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_rod_without_thickness_is_certified_by_its_length
     BOOST_TEST(run.certified(), to_string(run));
     BOOST_TEST(run.overlap.value > 0.0);
     BOOST_TEST(sim.system().half_thickness()[1] == 0.5);
+}
+
+// (erincatto/box3d#134) A second simulation of a system that another one has led to a later time.
+BOOST_AUTO_TEST_CASE_TEMPLATE(the_clock_begins_where_the_system_is, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto coarse = with_floor<Dim>(
+        0.5, talus::PrescribedMotion<Dim>::uniform({}, {0.25 * up<Dim>(), W<Dim>::Zero()}),
+        {.h = 1e-3});
+    const auto rider = add_box(coarse, 0.0);
+    coarse.system().bodies.velocity[rider] = 0.25 * up<Dim>();
+    BOOST_TEST(coarse.run(1.0).certified());
+    talus::Simulation<Dim> fine(coarse.system(), {.h = 1e-4});
+    BOOST_TEST(fine.time() == coarse.time());
+    BOOST_TEST(fine.run(0.1).certified());
+    BOOST_TEST(std::abs(fine.time() - 1.1) <= 1e-12);
+    BOOST_TEST(std::abs(fine.system().bodies.position[0][Dim - 1] - 0.275) <= 1e-12);
+    BOOST_TEST(std::abs(fine.system().bodies.position[rider][Dim - 1] - 0.775) <= 1e-5);
+}
+
+template <int Dim>
+std::string refusal(talus::Simulation<Dim> sim) {
+    try {
+        sim.step();
+    } catch (const talus::input_error& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+// (schteppe/cannon.js#317) A moving body made static by hand would go on pushing.
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_has_no_mass_and_no_motion_stands_still, D, dimensions) {
+    constexpr int Dim = D::value;
+    const auto refusal_of = [](auto change) {
+        auto sim = with_floor<Dim>(0.5, talus::Pose<Dim>{});
+        const auto box = static_cast<std::size_t>(add_box(sim, 0.0));
+        change(sim.system(), box);
+        return refusal(sim);
+    };
+    const auto make_static = [](auto& system, std::size_t i) {
+        system.bodies.inverse_mass[i] = 0.0;
+        system.bodies.inverse_inertia[i].setZero();
+    };
+    BOOST_TEST(refusal_of(make_static) == "none");
+    BOOST_TEST(refusal_of([&](auto& system, std::size_t i) {
+                   make_static(system, i);
+                   system.bodies.velocity[i] = 2.0 * V<Dim>::Unit(0);
+               }).find("velocity of body 1 is 2, but must be 0") == 0u);
+    BOOST_TEST(refusal_of([&](auto& system, std::size_t i) {
+                   system.bodies.inverse_mass[i] = 0.0;
+               }).find("inverse moment of inertia of body 1 is ") == 0u);
+    for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity()}) {
+        BOOST_TEST(refusal_of([&](auto& system, std::size_t i) {
+                       system.bodies.inverse_mass[i] = bad;
+                   }).find("inverse mass of body 1 is ") == 0u);
+        BOOST_TEST(refusal_of([&](auto& system, std::size_t i) {
+                       system.bodies.inverse_inertia[i][0] = bad;
+                   }).find("inverse moment of inertia of body 1 is ") == 0u);
+    }
+    BOOST_TEST(refusal_of([](auto& system, std::size_t i) {
+                   system.bodies.position[i][0] = std::numeric_limits<double>::quiet_NaN();
+               }).find("position of body 1[0] is nan") == 0u);
+}
+
+// (google-deepmind/mujoco#2573) 0/0 on the axis: an own shape that gives no number is named.
+template <int Dim>
+struct Lost : Rod<Dim> {
+    V<Dim> support(const V<Dim>& d) const {
+        return Rod<Dim>::support(d) * (d[0] == 0.0 ? std::sqrt(-1.0) : 1.0);
+    }
+};
+template <int Dim>
+struct LostOnes : talus::SimulationTypes<Dim> {
+    using Shape = talus::AnyShapeOf<Dim, Lost<Dim>, talus::HalfSpace<Dim>, talus::Box<Dim>>;
+};
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(supports_that_are_no_numbers_are_refused, D, dimensions) {
+    constexpr int Dim = D::value;
+    for (const bool flat : {true, false}) {
+        talus::Simulation<Dim, LostOnes<Dim>> sim(law<Dim>(0.5));
+        if (flat)
+            sim.system().add_obstacle(talus::HalfSpace<Dim>{up<Dim>(), 0.0});
+        else
+            sim.system().add_obstacle(talus::Box<Dim>(V<Dim>::Constant(1.0)),
+                                      talus::Pose<Dim>{-up<Dim>(), {}});
+        sim.system().add(Lost<Dim>{}, round_inertia<Dim>(1.0, 0.3), {});
+        std::string said = "none";
+        try {
+            sim.step();
+        } catch (const talus::input_error& error) {
+            said = error.what();
+        }
+        BOOST_TEST(said.find("bodies 0 and 1: support of a shape along (") == 0u, said);
+    }
+}
+
+// (avianphysics/avian#990) What is anticipated is what the motion leads to: nothing for bodies that
+// pass each other, round ones too, and the side where they meet for those that do not.
+BOOST_AUTO_TEST_CASE_TEMPLATE(round_bodies_that_pass_each_other_are_not_deflected, D, dimensions) {
+    constexpr int Dim = D::value;
+    const double r = 0.01, v = 10.0;
+    const auto end_velocity = [&](const auto& obstacle, double height, int part, double h) {
+        talus::Simulation<Dim> sim(law<Dim>(0.5),
+                                   {.h = h, .step = {.scheme = talus::Scheme::gap_anticipating}});
+        sim.system().add_obstacle(obstacle, talus::Pose<Dim>{});
+        const V<Dim> start = (-0.2 + part * v * h / 8) * V<Dim>::Unit(0) + height * up<Dim>();
+        const auto ball = sim.system().add(talus::Ball<Dim>(r), 1000.0, {start, {}},
+                                           {v * V<Dim>::Unit(0), W<Dim>::Zero()});
+        BOOST_TEST(sim.run(0.5 / v).certified());
+        return V<Dim>(sim.system().bodies.velocity[ball] - v * V<Dim>::Unit(0));
+    };
+    for (const double h : {5e-4, 1e-3, 2e-3})
+        for (int part = 0; part < 8; ++part) {
+            const double clear = 2.0 * r + 2e-4;
+            BOOST_TEST(end_velocity(talus::Ball<Dim>(r), clear, part, h).isZero(0.0));
+            BOOST_TEST(end_velocity(talus::Capsule<Dim>(2 * r, r), clear, part, h).isZero(0.0));
+            // One that hits is deflected.
+            BOOST_TEST(end_velocity(talus::Ball<Dim>(r), 1.5 * r, part, h).norm() > 1.0);
+        }
 }
 
 BOOST_AUTO_TEST_CASE(a_run_of_no_step_claims_nothing) {

@@ -44,8 +44,13 @@ class ContactDetection {
             const auto a = static_cast<std::size_t>(pair.a);
             const auto b = static_cast<std::size_t>(pair.b);
             points_.clear();
-            contact_points<Dim>(shapes[a], bodies.pose(a), shapes[b], bodies.pose(b),
-                                reach[a] + reach[b], points_);
+            try {
+                contact_points<Dim>(shapes[a], bodies.pose(a), shapes[b], bodies.pose(b),
+                                    reach[a] + reach[b], points_);
+            } catch (const input_error& error) {
+                throw input_error(detail::numbered("bodies", a, detail::numbered(" and", b)) +
+                                  ": " + error.what());
+            }
             if (!motion.empty()) {
                 anticipated_.add(pair.a, shapes[a], pair.b, shapes[b], reach[a] + reach[b],
                                  std::span<const ContactPoint<Dim>>(points_));

@@ -10,17 +10,25 @@
 
 namespace talus {
 
-/// Change of the body-axis spin over a step of size h [s] by the gyroscopic term alone [rad/s].
+/// What the gyroscopic term alone makes of a body's spin over a step.
 template <int Dim>
-AngularVector<Dim> gyroscopic_change(const Bodies<Dim>& bodies, std::size_t i, double h,
-                                     Gyroscopic gyroscopic) {
+struct GyroscopicChange {
+    AngularVector<Dim> spin;     ///< body axes [rad/s]
+    bool turns_too_far = false;  ///< within the step for its momentum to be kept
+};
+
+/// Over a step of size h [s].
+template <int Dim>
+GyroscopicChange<Dim> gyroscopic_change(const Bodies<Dim>& bodies, std::size_t i, double h,
+                                        Gyroscopic gyroscopic) {
     const AngularVector<Dim>& inverse = bodies.inverse_inertia[i];
     if (inverse == AngularVector<Dim>::Constant(inverse[0]) || !(inverse.minCoeff() > 0.0))
-        return AngularVector<Dim>::Zero();
+        return {AngularVector<Dim>::Zero()};
     const AngularVector<Dim> moments = bodies.inertia(i);
-    if (gyroscopic == Gyroscopic::momentum_preserving)
-        return torque_free_spin<Dim>(bodies.spin[i], moments, h) - bodies.spin[i];
-    return h * inverse.cwiseProduct(gyroscopic_torque<Dim>(bodies.spin[i], moments));
+    if (gyroscopic == Gyroscopic::explicit_term)
+        return {h * inverse.cwiseProduct(gyroscopic_torque<Dim>(bodies.spin[i], moments))};
+    const TorqueFreeSpin<Dim> end = torque_free_spin<Dim>(bodies.spin[i], moments, h);
+    return {end.spin - bodies.spin[i], end.in_parts};
 }
 
 /// The velocity the step would end with without contact impulses, first line of [Moreau] (9):

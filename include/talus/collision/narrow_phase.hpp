@@ -190,8 +190,8 @@ constexpr SupportRoutine<Dim> support_routine() {
 /// Appends to `out` every contact point of two placed shapes whose gap is at most `margin` [m];
 /// signs and places as told in contact_point.hpp. The result is a function of the arguments alone;
 /// exchanging the shapes gives the mirrored contacts (of shapes known by their support alone, where
-/// two ways out are as short, maybe those of the other way). Two half-spaces have no contacts. `out` keeps
-/// its capacity between calls, and nothing else is allocated.
+/// two ways out are as short, maybe those of the other way). Two half-spaces have no contacts.
+/// `out` keeps its capacity between calls, and nothing else is allocated.
 template <int Dim, class A, class B>
 requires CanMeet<A, B, Dim>
 void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,

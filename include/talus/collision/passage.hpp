@@ -347,10 +347,6 @@ TALUS_OF_PASSAGE(Meeting)::append(std::span<const ContactPoint<Dim>> present,
     const auto nearest = nearest_of(present);
     const bool closed = nearest->gap <= tolerance_;
     nearest_ = nearest->normal;
-    if (core_a_.face_count() + core_b_.face_count() == 0) {
-        out.insert(out.end(), present.begin(), present.end());
-        return {};
-    }
     find_faces(a_, core_a_, -1.0, present);
     find_faces(b_, core_b_, 1.0, present);
     if (!others_ && nearest->gap <= most_slack_) {

@@ -3,6 +3,7 @@
 
 #include <talus/collision/feature_code.hpp>
 #include <talus/collision/gjk.hpp>
+#include <talus/core/input.hpp>
 #include <talus/geometry/half_space.hpp>
 #include <talus/geometry/shape_view.hpp>
 
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -285,14 +287,27 @@ class Overlap {
     double away_;
 };
 
+/// The support of a placed shape along d. Throws input_error if it is no number, which no test of a
+/// margin would show.
+template <int Dim>
+Vector<Dim> placed_support(const ShapeView<Dim>& shape, const Pose<Dim>& pose,
+                           const Vector<Dim>& d) {
+    const Vector<Dim> along = pose.rotation.transpose_times(d), point = shape.support(along);
+    if (!point.allFinite()) {
+        std::string direction;
+        for (int k = 0; k < Dim; ++k) direction += (k > 0 ? ", " : "") + text_of(along[k]);
+        reject("support of a shape along (" + direction + ")", point.sum(), "finite");
+    }
+    return pose.point_world(point);
+}
+
 /// Contact of a convex shape with a half-space: its lowest point, code 0.
 template <int Dim>
 void append_lowest_point(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const HalfSpace<Dim>& b,
                          const Pose<Dim>& pose_b, double margin,
                          std::vector<ContactPoint<Dim>>& out) {
     const HalfSpace<Dim> wall = b.placed(pose_b);
-    const Vector<Dim> x =
-        pose_a.point_world(a.support(pose_a.rotation.transpose_times(-wall.normal())));
+    const Vector<Dim> x = placed_support(a, pose_a, Vector<Dim>(-wall.normal()));
     const double gap = wall.normal().dot(x) - wall.offset();
     if (gap <= margin) out.push_back({x - 0.5 * gap * wall.normal(), wall.normal(), gap, {}});
 }
@@ -321,9 +336,8 @@ void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                       centre_b = 0.5 * (box_b.low + box_b.high);
     const Vector<Dim> origin = size_a < size_b ? centre_a : centre_b;
     const auto support = [&](const Vector<Dim>& d) {
-        return DifferencePoint<Dim>{
-            pose_a.point_world(a.support(pose_a.rotation.transpose_times(d))) - origin,
-            pose_b.point_world(b.support(pose_b.rotation.transpose_times(-d))) - origin};
+        return DifferencePoint<Dim>{detail::placed_support(a, pose_a, d) - origin,
+                                    detail::placed_support(b, pose_b, Vector<Dim>(-d)) - origin};
     };
     const Vector<Dim> start =
         centre_a == centre_b ? Vector<Dim>(Vector<Dim>::Unit(0)) : Vector<Dim>(centre_a - centre_b);

@@ -4,7 +4,8 @@
 #include <talus/core/cross.hpp>
 #include <talus/spatial/rotation.hpp>
 
-#include <limits>
+#include <cmath>
+#include <optional>
 
 namespace talus {
 
@@ -28,6 +29,63 @@ requires SpaceDimension<Dim> AngularVector<Dim> gyroscopic_torque(
         return -spin_body.cross(principal.cwiseProduct(spin_body));
 }
 
+namespace detail {
+
+/// J with exp(phi + d) = exp(J d) exp(phi) to first order in d: the left Jacobian of the rotations.
+inline Matrix<3> left_jacobian(const Vector<3>& phi) {
+    const double square = phi.squaredNorm(), angle = std::sqrt(square);
+    // (1 - cos) / angle^2 and (angle - sin) / angle^3, by their series where digits would cancel.
+    const bool small = angle < 1e-2;
+    const double half = std::sin(0.5 * angle);
+    const double b = small ? 0.5 - square / 24.0 : 2.0 * half * half / square;
+    const double c =
+        small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
+    const Matrix<3> cross = moment_matrix<3>(phi);
+    return Matrix<3>::Identity() + b * cross + c * (cross * cross);
+}
+
+/// The equation of torque_free_spin, by Newton's method, which does not go where the error grows.
+/// Nothing where no solution was found next to the spin.
+inline std::optional<Vector<3>> solve_torque_free_spin(const Vector<3>& spin_body,
+                                                       const Vector<3>& principal,
+                                                       double duration) {
+    const double half = 0.5 * duration;
+    const Vector<3> target =
+        Rotation<3>::exp(-half * spin_body) * principal.cwiseProduct(spin_body);
+    const auto error_at = [&](const Vector<3>& w) -> Vector<3> {
+        return Rotation<3>::exp(half * w) * principal.cwiseProduct(w) - target;
+    };
+    Vector<3> w = spin_body, error = error_at(w);
+    for (int k = 0; k < 50; ++k) {
+        // d(exp(half w) m) = -half [exp(half w) m]_x J dw.
+        Matrix<3> slope = columns_scaled<3>(Rotation<3>::exp(half * w).matrix(), principal);
+        slope -= half * (moment_matrix<3>(Vector<3>(error + target)) * left_jacobian(half * w));
+        const Vector<3> step = solve_by_cramer(slope, error);
+        Vector<3> next = w - step, next_error = error_at(next);
+        for (int j = 1; j <= 20 && !(next_error.norm() < error.norm()); ++j) {
+            next = w - std::ldexp(1.0, -j) * step;
+            next_error = error_at(next);
+        }
+        if (!(next_error.norm() < error.norm())) break;  // rounding reached, or no way on
+        w = next;
+        error = next_error;
+    }
+    constexpr double rounding = 1e-12;  // of the momentum
+    const bool solved = error.norm() <= rounding * target.norm();
+    // Farther away are solutions of another branch, of another energy.
+    const bool next_to_it = (w - spin_body).norm() <= spin_body.norm();
+    return solved && next_to_it ? std::optional(w) : std::nullopt;
+}
+
+}  // namespace detail
+
+/// Spin, in principal axes, of a body without torque at the end of an interval.
+template <int Dim>
+struct TorqueFreeSpin {
+    AngularVector<Dim> spin;
+    bool in_parts = false;  ///< of the interval: what follows the whole of it keeps no momentum
+};
+
 /// Spin, in principal axes, with which a torque-free body ends an interval of length `duration` [s]
 /// that it enters with `spin_body`, when it turns by half the interval at each of the two spins:
 ///
@@ -35,35 +93,24 @@ requires SpaceDimension<Dim> AngularVector<Dim> gyroscopic_torque(
 ///
 /// Both sides are the angular momentum in the axes of the midpoint, so the momentum in space is
 /// kept to rounding; the map is time-reversible, hence of order 2 ([SimoWong1991] study such
-/// updates). Solved by Newton's method; a turn of more than about one radian per interval, for
-/// which the equation may have no solution, falls back to the best iterate.
+/// updates). A turn of up to 1.5 rad per interval has a solution next to its spin for all moments
+/// tried, plates and needles among them, with an energy that swings by 10 % at most. Beyond, where
+/// none is found, the interval is halved until there is one.
 template <int Dim>
-requires SpaceDimension<Dim> AngularVector<Dim> torque_free_spin(
+requires SpaceDimension<Dim> TorqueFreeSpin<Dim> torque_free_spin(
     const AngularVector<Dim>& spin_body, const AngularVector<Dim>& principal, double duration) {
-    if constexpr (Dim == 2) {
-        return spin_body;
-    } else {
-        if (is_isotropic<3>(principal)) return spin_body;
-        const double half = 0.5 * duration;
-        const Vector<3> target =
-            Rotation<3>::exp(-half * spin_body) * principal.cwiseProduct(spin_body);
-        Vector<3> w = spin_body;
-        Vector<3> best = w;
-        double best_error = std::numeric_limits<double>::infinity();
-        for (int k = 0; k < 50; ++k) {
-            const Rotation<3> turn = Rotation<3>::exp(half * w);
-            const Vector<3> carried = turn * principal.cwiseProduct(w);
-            const Vector<3> error = carried - target;
-            if (!(error.norm() < best_error)) break;  // rounding reached, or no progress
-            best = w;
-            best_error = error.norm();
-            // d(exp(half w) m) = -half [exp(half w) m]_x dw to first order in half |w|.
-            Matrix<3> slope = columns_scaled<3>(turn.matrix(), principal);
-            slope -= half * moment_matrix<3>(carried);
-            w -= solve_by_cramer(slope, error);
+    if constexpr (Dim == 3) {
+        if (is_isotropic<3>(principal)) return {spin_body};
+        constexpr int most_parts = 4096;
+        for (int parts = 1; parts <= most_parts; parts *= 2) {
+            std::optional<Vector<3>> w = spin_body;
+            for (int k = 0; k < parts && w; ++k)
+                w = detail::solve_torque_free_spin(*w, principal, duration / parts);
+            if (w) return {*w, parts > 1};
         }
-        return best;
+        return {spin_body, true};
     }
+    return {spin_body};
 }
 
 }  // namespace talus

@@ -133,6 +133,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
                     Data& data) {
     require_shapes(system);
     system.require_obstacles_in_place();
+    system.require_masses();
     before_.keep(system.bodies);
     time_before_ = system.time();
     kept_ = true;
@@ -197,6 +198,9 @@ TALUS_OF_STEP::require_shapes(const SystemType& system) {
 TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
     Bodies<Dim>& bodies = system.bodies;
     const std::size_t n = bodies.count();
+    for (std::size_t i = 0; i < n; ++i)
+        if (!bodies.position[i].allFinite())
+            require_finite(detail::numbered("position of body", i), bodies.position[i]);
     constexpr double part_of_step = 1e-3;  // over which the obstacles' motion is checked
     require_finite("gravity", system.gravity);
     system.place_obstacles(data.t_mid(), part_of_step * data.h);
@@ -287,10 +291,12 @@ TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Dat
         data.applied.clear();
     }
     data.gyroscopic.clear();
+    data.turned_too_far = 0;
     data.free.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const AngularVector<Dim> change =
+        const auto [change, turns_too_far] =
             gyroscopic_change<Dim>(bodies, i, data.h, params.gyroscopic);
+        data.turned_too_far += turns_too_far ? 1 : 0;
         if (data.gyroscopic.empty() && !change.is_zero())
             data.gyroscopic.assign(n, AngularVector<Dim>::Zero());
         if (!data.gyroscopic.empty()) data.gyroscopic[i] = change;

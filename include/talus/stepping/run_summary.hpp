@@ -48,11 +48,15 @@ struct RunSummary {
     /// unseen, had they met. Only the gap-anticipating scheme sees what is in the way, and not for
     /// contacts with restitution.
     Worst travel;
+    /// Steps in which a body turned too far to keep its angular momentum (StepData).
+    std::int64_t turned_too_far = 0;
     bool stopped = false;  ///< by the observer
 
-    /// Every step converged, and no body was entered by more than 0.15 of half its thickness. Of
-    /// contacts that were seen: look at `travel` where bodies are thin or fast.
-    bool certified() const { return missed == 0 && overlap.value <= deepest_overlap; }
+    /// Every step converged, no body was entered by more than 0.15 of half its thickness, and none
+    /// turned too far. Of contacts that were seen: look at `travel` where bodies are thin or fast.
+    bool certified() const {
+        return missed == 0 && overlap.value <= deepest_overlap && turned_too_far == 0;
+    }
 
     /// Notes a step. O(bodies + contacts).
     template <int Dim, class Law, class ShapeType>
@@ -62,6 +66,7 @@ struct RunSummary {
             ++missed;
         else if (data.report.short_of_aim)
             ++short_of_aim;
+        turned_too_far += data.turned_too_far > 0 ? 1 : 0;
         const std::size_t c = data.report.worst_contact;
         note(residual, data.report.residual, data, c);
         note(contact_error, data.report.contact_error, data, c);
@@ -151,6 +156,9 @@ inline std::string to_string(const RunSummary& run) {
                 (run.overlap.value > RunSummary::deepest_overlap
                      ? ", but must be at most " + detail::text_of(RunSummary::deepest_overlap)
                      : "");
+    if (run.turned_too_far > 0)
+        text += "; a body turned by more than 1.5 rad in " + std::to_string(run.turned_too_far) +
+                " steps, and lost its angular momentum: a smaller h keeps it";
     if (run.travel.value > 1.0)
         text += "; went too far in one step to be sure to meet, of their thicknesses, " +
                 at(run.travel);

@@ -54,7 +54,7 @@ class Simulation {
     static_assert(PositionCorrection<Correction, SystemType, Data>,
                   "Types::GapCorrection must be a PositionCorrection");
 
-    /// Throws input_error if a setting is out of range.
+    /// The clock begins where the system's does. Throws input_error if a setting is out of range.
     explicit Simulation(SystemType system, SimulationParams params = {},
                         Solver solver = default_solver<Dim, Types>());
     /// One material.
@@ -114,8 +114,7 @@ class Simulation {
     MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks> integrator_;
     [[no_unique_address]] Correction gap_correction_;
     Data data_, next_data_;  // the next one: of a step under way
-    double time_start_ = 0.0;
-    double time_ = 0.0;
+    double time_start_, time_;
     std::int64_t step_count_ = 0;
 };
 
@@ -123,7 +122,11 @@ template <int Dim, class Types>
 requires SpaceDimension<Dim> Simulation<Dim, Types>::Simulation(SystemType system,
                                                                 SimulationParams params,
                                                                 Solver solver)
-    : system_(std::move(system)), params_(params), solver_(std::move(solver)) {
+    : system_(std::move(system)),
+      params_(params),
+      solver_(std::move(solver)),
+      time_start_(system_.time()),
+      time_(time_start_) {
     require_positive("step size h", params_.h);
     require_non_negative("contact tolerance", params_.step.contact_tolerance.value_or(0.0));
     require_non_negative("skin", params_.step.skin);

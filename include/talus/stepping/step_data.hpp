@@ -25,9 +25,12 @@ struct StepData {
 
     PerBody<Wrench<Dim>> applied;            ///< user forces; empty if there are none
     PerBody<AngularVector<Dim>> gyroscopic;  ///< change of body-axis spin; empty if all zero
-    PerBody<Twist<Dim>> begin;               ///< u_begin, world axes
-    PerBody<Twist<Dim>> free;                ///< u_free, world axes
-    PerBody<Twist<Dim>> end;                 ///< u_end, world axes
+    /// Bodies that turn too far within the step, by 1.5 rad or more, for their angular momentum to
+    /// be kept (Gyroscopic::momentum_preserving).
+    std::size_t turned_too_far = 0;
+    PerBody<Twist<Dim>> begin;  ///< u_begin, world axes
+    PerBody<Twist<Dim>> free;   ///< u_free, world axes
+    PerBody<Twist<Dim>> end;    ///< u_end, world axes
 
     ContactSet<Dim> contacts;          ///< at the midpoint configuration
     ContactProblem<Dim, Law> problem;  ///< what the solver was given

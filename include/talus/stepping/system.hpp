@@ -124,6 +124,9 @@ struct System {
     /// Throws input_error if an obstacle is not as its motion left it: a place or a velocity
     /// written into `bodies` would be lost without a word at the next step.
     void require_obstacles_in_place() const;
+    /// Throws input_error for inverse masses and moments that no body has, and for a body without
+    /// mass or motion that has a velocity, with which it would push others and stay where it is.
+    void require_masses() const;
 
     /// Keeps a step from being changed, or begun again, on its way. Throws input_error if one is on
     /// its way already.
@@ -214,6 +217,42 @@ void System<Dim, Law, ShapeType>::require_obstacles_in_place() const {
                                   " does not lead to where the body is or to its velocity, which "
                                   "were changed by hand, but must: change the motion "
                                   "(System::obstacles)");
+    }
+}
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::require_masses() const {
+    const std::size_t n = bodies.count();
+    require_count("inverse masses", bodies.inverse_mass.size(), "bodies", n);
+    require_count("inverse moments of inertia", bodies.inverse_inertia.size(), "bodies", n);
+    std::size_t immovable = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double inverse = bodies.inverse_mass[i];
+        const AngularVector<Dim>& moments = bodies.inverse_inertia[i];
+        if (!(inverse >= 0.0 && std::isfinite(inverse)))
+            detail::reject(detail::numbered("inverse mass of body", i), inverse,
+                           "finite and not negative");
+        if (!(moments.minCoeff() >= 0.0 && moments.allFinite()))
+            detail::reject(detail::numbered("inverse moment of inertia of body", i),
+                           moments.allFinite() ? moments.minCoeff() : moments.sum(),
+                           "finite and not negative");
+        immovable += inverse == 0.0 ? 1 : 0;
+    }
+    if (immovable == obstacles.size()) return;
+    std::vector<bool> has_motion(n, false);
+    for (const Obstacle& obstacle : obstacles)
+        has_motion[static_cast<std::size_t>(obstacle.body)] = true;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!bodies.is_obstacle(i) || has_motion[i]) continue;
+        const std::string body = detail::numbered(" of body", i);
+        if (!bodies.inverse_inertia[i].isZero(0.0))
+            detail::reject("inverse moment of inertia" + body, bodies.inverse_inertia[i].maxCoeff(),
+                           "0 like its inverse mass, which makes it an obstacle");
+        const double speed = bodies.velocity[i].norm() + bodies.spin[i].norm();
+        if (speed != 0.0)
+            detail::reject("velocity" + body, speed,
+                           "0, as it has neither mass nor a prescribed motion");
     }
 }
 
