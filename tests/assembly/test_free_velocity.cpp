@@ -22,7 +22,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(newton_and_euler_give_the_free_velocity, D, dimens
     const talus::Wrench<Dim> applied{random_input::vector<talus::Vector<Dim>>(rng),
                                      random_input::vector<talus::AngularVector<Dim>>(rng)};
     const double h = 0.01;
-    const auto gyro = talus::gyroscopic_change<Dim>(bodies, 0, h, talus::Gyroscopic::explicit_term).spin;
+    const auto gyro =
+        talus::gyroscopic_change<Dim>(bodies, 0, h, talus::Gyroscopic::explicit_term).spin;
     const auto free = talus::free_velocity<Dim>(bodies, 0, h, gravity, applied, gyro);
 
     const talus::Vector<Dim> acceleration = gravity + applied.force / 3.0;

@@ -44,8 +44,8 @@ class AnticipatedContacts {
     }
 
     /// Appends the contacts of all pairs, sorted. In the place of those that the motion would close
-    /// are the ones that it leads to. Those of half-spaces, which have one normal alone, of two
-    /// shapes without faces and of shapes without a support mapping stay. What takes the place of
+    /// are the ones that it leads to. Those of half-spaces, which have one normal alone, and of
+    /// shapes without a support mapping stay. What takes the place of
     /// open contacts, of gap > tolerance, is open.
     void finish(ContactSet<Dim>& contacts);
 

@@ -165,8 +165,8 @@ void decide(EquilibriumReport<Dim, Law>& report, const IslandSpeed& moving, doub
         report.reason =
             "the forces are not accurate enough to tell: " + found + ", but must be below " +
             text_of(rest) + " for rest, and the speed above " + text_of(moving.amplification) +
-            " times the errors for motion: allow more iterations, or take Automatic, as near "
-            "a threshold sweeps converge slowly";
+            " times the errors for motion: allow more iterations, or take Automatic, if this was "
+            "not, as near a threshold sweeps converge slowly; on it there is no telling";
     }
 }
 

@@ -38,7 +38,7 @@ struct RunSummary {
     /// The sum over all steps of h times the worst velocity error [m]: times sqrt(1 + mu^2), or 2
     /// if that is less, no overlap has grown by more for want of accuracy. A bound, and far above
     /// what comes of it where the worst contact is another one in each step: it is told, `overlap`
-    /// is judged.
+    /// is judged. It is of one contact: along a chain of them, as up a tower, overlaps add up.
     double drift = 0.0;
     /// Deepest overlap as a fraction of half the thickness of the thinner body
     /// (System::half_thickness; of discs and balls: the radius) [-].
