@@ -4,6 +4,7 @@
 #include <talus/core/input.hpp>
 #include <talus/core/types.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -83,5 +84,81 @@ inline FabricHarmonic fit_harmonic(const DirectionHistogram& histogram, int orde
     if (phase < 0.0) phase += 2.0 * std::numbers::pi / order;
     return {order, std::hypot(cosine, sine) / averaged, phase};
 }
+
+/// A density of directions that have no sense, (1 + sum over its terms) / (2 pi).
+struct FabricFit {
+    std::vector<FabricHarmonic> terms;
+
+    /// At an angle [rad], per radian.
+    double density(double angle) const {
+        double sum = 1.0;
+        for (const FabricHarmonic& t : terms)
+            sum += t.amplitude * std::cos(t.order * (angle - t.direction));
+        return sum / (2.0 * std::numbers::pi);
+    }
+    /// Angles in [0, pi) at which the density is largest among its neighbours, ascending [rad].
+    std::vector<double> peaks() const;
+};
+
+/// Multiples of 2 theta up to `highest`, of which each stands alone (fit_harmonic): the fit of
+/// [Moreau] section 3.3. Throws input_error for an odd one, and as fit_harmonic does.
+inline FabricFit fit_fabric(const DirectionHistogram& histogram, int highest = 4) {
+    if (highest < 2 || highest % 2 != 0)
+        detail::reject("highest order of the fit", highest, "even and at least 2");
+    FabricFit fit;
+    for (int order = 2; order <= highest; order += 2)
+        fit.terms.push_back(fit_harmonic(histogram, order));
+    return fit;
+}
+
+inline std::vector<double> FabricFit::peaks() const {
+    constexpr int steps = 7200;
+    constexpr double width = std::numbers::pi / steps;
+    std::vector<double> found;
+    double before = density(-width), here = density(0.0);
+    for (int k = 0; k < steps; ++k) {
+        const double after = density((k + 1) * width);
+        if (here > before && here >= after) {
+            // The vertex of the parabola through the three.
+            const double bend = before - 2.0 * here + after;
+            double angle = k * width + (bend < 0.0 ? 0.5 * (before - after) / bend * width : 0.0);
+            if (angle < 0.0) angle += std::numbers::pi;
+            found.push_back(angle);
+        }
+        before = here;
+        here = after;
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+/// Mean of n n^T over directions that have no sense, weighted: the fabric tensor. Its trace is 1.
+template <int Dim>
+requires SpaceDimension<Dim>
+class FabricTensor {
+  public:
+    /// Counts a unit direction.
+    void add(const Vector<Dim>& normal, double weight = 1.0) {
+        sum_ += weight * (normal * normal.transpose());
+        total_ += weight;
+    }
+    double total() const { return total_; }
+    /// Throws input_error if nothing was counted.
+    Matrix<Dim> tensor() const {
+        require_positive("total of the fabric tensor", total_);
+        return sum_ / total_;
+    }
+    /// The traceless a of the density (1 + n . a n) / (2 pi), in space / (4 pi), that has this
+    /// fabric tensor ([Kanatani1984]: the fabric tensor of the third kind): (Dim + 2) Dim / 2 times
+    /// its deviator. In the plane its larger principal value is the amplitude of order 2.
+    Matrix<Dim> anisotropy() const {
+        constexpr double factor = 0.5 * Dim * (Dim + 2);
+        return factor * (tensor() - Matrix<Dim>::Identity() / double{Dim});
+    }
+
+  private:
+    Matrix<Dim> sum_ = Matrix<Dim>::Zero();
+    double total_ = 0.0;
+};
 
 }  // namespace talus

@@ -97,7 +97,9 @@ ForceChains force_chains(const Bodies<Dim>& bodies, const ContactSet<Dim>& conta
     result.mean /= static_cast<double>(compressed);
 
     const auto strong = [&](std::size_t i) {
-        return result.compression[i] > 0.0 && result.compression[i] >= result.mean;
+        constexpr double rounding = 1e-12;  // where all are alike
+        return result.compression[i] > 0.0 &&
+               result.compression[i] >= (1.0 - rounding) * result.mean;
     };
     const double least_cosine = std::cos(params.angle);
     std::vector<detail::ChainLinks> links(n);
@@ -141,8 +143,8 @@ ForceChains force_chains(const Bodies<Dim>& bodies, const ContactSet<Dim>& conta
     };
     for (const bool closed : {false, true})
         for (std::size_t i = 0; i < n; ++i) {
-            const bool end = next[i][0] == detail::ChainLinks::none ||
-                             next[i][1] == detail::ChainLinks::none;
+            const bool end =
+                next[i][0] == detail::ChainLinks::none || next[i][1] == detail::ChainLinks::none;
             const bool alone = end && next[i][0] == next[i][1];
             if (!taken[i] && !alone && (closed || end)) follow(i);
         }

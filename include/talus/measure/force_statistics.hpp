@@ -32,8 +32,7 @@ namespace detail {
 inline std::vector<double> positive_forces(std::span<const double> forces) {
     std::vector<double> found;
     for (std::size_t k = 0; k < forces.size(); ++k) {
-        if (!std::isfinite(forces[k]))
-            reject(numbered("force", k), forces[k], "finite");
+        if (!std::isfinite(forces[k])) reject(numbered("force", k), forces[k], "finite");
         if (forces[k] > 0.0) found.push_back(forces[k]);
     }
     return found;
