@@ -240,19 +240,22 @@ void System<Dim, Law, ShapeType>::require_masses() const {
         immovable += inverse == 0.0 ? 1 : 0;
     }
     if (immovable == obstacles.size()) return;
-    std::vector<bool> has_motion(n, false);
-    for (const Obstacle& obstacle : obstacles)
-        has_motion[static_cast<std::size_t>(obstacle.body)] = true;
+    const auto has_motion = [&](std::size_t i) {
+        return std::any_of(obstacles.begin(), obstacles.end(), [i](const Obstacle& obstacle) {
+            return static_cast<std::size_t>(obstacle.body) == i;
+        });
+    };
     for (std::size_t i = 0; i < n; ++i) {
-        if (!bodies.is_obstacle(i) || has_motion[i]) continue;
-        const std::string body = detail::numbered(" of body", i);
-        if (!bodies.inverse_inertia[i].isZero(0.0))
-            detail::reject("inverse moment of inertia" + body, bodies.inverse_inertia[i].maxCoeff(),
-                           "0 like its inverse mass, which makes it an obstacle");
+        if (!bodies.is_obstacle(i)) continue;
         const double speed = bodies.velocity[i].norm() + bodies.spin[i].norm();
-        if (speed != 0.0)
-            detail::reject("velocity" + body, speed,
-                           "0, as it has neither mass nor a prescribed motion");
+        const double turns = bodies.inverse_inertia[i].maxCoeff();
+        if ((speed == 0.0 && turns == 0.0) || has_motion(i)) continue;
+        const std::string body = detail::numbered(" of body", i);
+        if (turns != 0.0)
+            detail::reject("inverse moment of inertia" + body, turns,
+                           "0 like its inverse mass, which makes it an obstacle");
+        detail::reject("velocity" + body, speed,
+                       "0, as it has neither mass nor a prescribed motion");
     }
 }
 
