@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/observer.hpp>
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>
 
