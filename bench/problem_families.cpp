@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "problem_families.hpp"
 
+#include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/simulation.hpp>
 
 #include <algorithm>
