@@ -20,7 +20,7 @@ class BlockAverage {
   public:
     /// Throws input_error for a value that is not finite.
     void add(double value) {
-        require_finite("value of a block average", value);
+        if (!std::isfinite(value)) detail::reject("value of a block average", value, "finite");
         for (std::size_t k = 0;; ++k) {
             if (k == levels_.size()) levels_.push_back({});
             Level& level = levels_[k];
