@@ -46,6 +46,22 @@ class ImpulseCache {
             impulse_[c] = jacobian.frame[c].transpose() * r[c];
     }
 
+    /// After bodies were removed: `to` is the new index of each old one, ascending, -1 for those
+    /// that are gone, whose contacts are forgotten. O(contacts).
+    void renumber(std::span<const BodyIndex> to) {
+        std::size_t kept = 0;
+        for (std::size_t c = 0; c < key_.size(); ++c) {
+            const BodyIndex a = to[static_cast<std::size_t>(key_[c].a)];
+            const BodyIndex b = to[static_cast<std::size_t>(key_[c].b)];
+            if (a < 0 || b < 0) continue;
+            key_[kept] = {a, b, key_[c].feature};
+            impulse_[kept] = impulse_[c];
+            ++kept;
+        }
+        key_.resize(kept);
+        impulse_.resize(kept);
+    }
+
     void clear() {
         key_.clear();
         impulse_.clear();

@@ -6,8 +6,16 @@
 
 namespace talus {
 
-/// Index of a body in the arrays of `Bodies`; bodies keep their index for ever.
+/// Index of a body in the arrays of `Bodies`, in the order in which they were added: its own until
+/// a body before it is removed (then it is one less). What must last longer is a BodyId.
 using BodyIndex = std::int32_t;
+
+/// Name of a body for as long as there is one, whatever else is added or removed; never given twice
+/// in one system. Ascending in the order in which bodies were added, as indices are.
+struct BodyId {
+    std::int64_t serial = -1;  ///< -1: of no body
+    friend constexpr auto operator<=>(const BodyId&, const BodyId&) = default;
+};
 
 /// Index of a material in a `MaterialTable`.
 using MaterialIndex = std::int32_t;

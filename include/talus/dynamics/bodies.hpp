@@ -8,10 +8,14 @@
 #include <talus/spatial/pose.hpp>
 #include <talus/spatial/twist.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 
 namespace talus {
 
@@ -32,6 +36,7 @@ struct Bodies {
     PerBody<double> inverse_mass;                 ///< 0 for obstacles [1/kg]
     PerBody<AngularVector<Dim>> inverse_inertia;  ///< principal, 0: does not turn [1/(kg m^2)]
     PerBody<MaterialIndex> material;
+    PerBody<BodyId> id;  ///< ascending
 
     std::size_t count() const { return position.size(); }
     bool is_obstacle(std::integral auto i) const { return inverse_mass[i] == 0.0; }
@@ -46,6 +51,38 @@ struct Bodies {
     /// World-axis twist.
     Twist<Dim> twist(std::integral auto i) const {
         return {velocity[i], rotation[i].spin_world(spin[i])};
+    }
+
+    /// Where the body of that name is; nothing if there is none (any more). O(log bodies).
+    std::optional<BodyIndex> find(BodyId body) const {
+        const auto at = std::lower_bound(id.begin(), id.end(), body);
+        if (at == id.end() || *at != body) return std::nullopt;
+        return static_cast<BodyIndex>(at - id.begin());
+    }
+    /// The same; throws input_error if there is none.
+    BodyIndex index(BodyId body) const {
+        if (const auto found = find(body)) return *found;
+        throw input_error("body id is " + std::to_string(body.serial) +
+                          ", but must be that of a body that was not removed");
+    }
+
+    /// Keeps, in their order, the bodies for which `keep(i)` holds. O(bodies).
+    template <class Keep>
+    void keep_if(Keep&& keep) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count(); ++i) {
+            if (!keep(i)) continue;
+            move(i, kept);
+            ++kept;
+        }
+        position.resize(kept);
+        rotation.resize(kept);
+        velocity.resize(kept);
+        spin.resize(kept);
+        inverse_mass.resize(kept);
+        inverse_inertia.resize(kept);
+        material.resize(kept);
+        id.resize(kept);
     }
 
     /// Adds a free body. Moments may be infinite: the body then does not turn (a point mass).
@@ -92,9 +129,45 @@ struct Bodies {
         inverse_mass.push_back(inverse_mass_);
         inverse_inertia.push_back(inverse_inertia_);
         material.push_back(material_index);
+        id.push_back({next_serial_++});
         return static_cast<BodyIndex>(position.size() - 1);
     }
+    void move(std::size_t from, std::size_t to) {
+        position[to] = position[from];
+        rotation[to] = rotation[from];
+        velocity[to] = velocity[from];
+        spin[to] = spin[from];
+        inverse_mass[to] = inverse_mass[from];
+        inverse_inertia[to] = inverse_inertia[from];
+        material[to] = material[from];
+        id[to] = id[from];
+    }
+
+    std::int64_t next_serial_ = 0;
 };
+
+/// Throws input_error for inverse masses and moments that no body has; returns how many bodies have
+/// no mass. O(bodies).
+template <int Dim>
+std::size_t require_masses_of(const Bodies<Dim>& bodies) {
+    const std::size_t n = bodies.count();
+    require_count("inverse masses", bodies.inverse_mass.size(), "bodies", n);
+    require_count("inverse moments of inertia", bodies.inverse_inertia.size(), "bodies", n);
+    std::size_t without = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double inverse = bodies.inverse_mass[i];
+        const AngularVector<Dim>& moments = bodies.inverse_inertia[i];
+        if (!(inverse >= 0.0 && std::isfinite(inverse)))
+            detail::reject(detail::numbered("inverse mass of body", i), inverse,
+                           "finite and not negative");
+        if (!(moments.minCoeff() >= 0.0 && moments.allFinite()))
+            detail::reject(detail::numbered("inverse moment of inertia of body", i),
+                           moments.allFinite() ? moments.minCoeff() : moments.sum(),
+                           "finite and not negative");
+        without += inverse == 0.0 ? 1 : 0;
+    }
+    return without;
+}
 
 /// Kinetic energy of body i [J]; zero for obstacles.
 template <int Dim>

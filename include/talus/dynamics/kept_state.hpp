@@ -32,6 +32,7 @@ class KeptState {
         bodies.inverse_mass.resize(std::min(n, bodies.inverse_mass.size()));
         bodies.inverse_inertia.resize(std::min(n, bodies.inverse_inertia.size()));
         bodies.material.resize(std::min(n, bodies.material.size()));
+        bodies.id.resize(std::min(n, bodies.id.size()));
     }
 
   private:

@@ -85,6 +85,9 @@ class MoreauMidpoint {
     /// Impulses remembered for the warm start.
     ImpulseCache<Dim>& impulse_cache() { return cache_; }
     const ImpulseCache<Dim>& impulse_cache() const { return cache_; }
+    /// Follows the bodies that were removed since the last step: they are forgotten, the others
+    /// found again by their ids. A step does so by itself. O(bodies + contacts).
+    void follow(const Bodies<Dim>& bodies);
 
   private:
     void pose(SystemType& system, double t_begin, double h, const StepParams& params, Data& data);
@@ -102,6 +105,7 @@ class MoreauMidpoint {
     ImpulseCache<Dim> cache_, other_cache_;  // the other one: of the step under way, or before it
     KeptState<Dim> before_;
     bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
+    std::vector<BodyId> remembered_;      // bodies that the cache numbers
     std::vector<double> fall_, reach_;    // by body
     std::vector<Twist<Dim>> motion_;      // over one step; empty where nothing is anticipated
     std::vector<Twist<Dim>> excess_;      // shape less surface, by body
@@ -134,6 +138,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     require_shapes(system);
     system.require_obstacles_in_place();
     system.require_masses();
+    follow(system.bodies);
     before_.keep(system.bodies);
     time_before_ = system.time();
     kept_ = true;
@@ -188,6 +193,22 @@ TALUS_OF_STEP::undo(SystemType& system) noexcept {
     }
     kept_ = stored_ = false;
     system.end_step();
+}
+
+TALUS_OF_STEP::follow(const Bodies<Dim>& bodies) {
+    // Ids ascend: whoever was remembered is where it was unless somebody before it has gone.
+    const auto& ids = bodies.id;
+    const bool same = remembered_.size() <= ids.size() &&
+                      std::equal(remembered_.begin(), remembered_.end(), ids.begin());
+    if (!same) {
+        std::vector<BodyIndex> to(remembered_.size(), -1);
+        for (std::size_t i = 0, j = 0; i < remembered_.size(); ++i) {
+            while (j < ids.size() && ids[j] < remembered_[i]) ++j;
+            if (j < ids.size() && ids[j] == remembered_[i]) to[i] = static_cast<BodyIndex>(j);
+        }
+        cache_.renumber(to);
+    }
+    remembered_.assign(ids.begin(), ids.end());
 }
 
 TALUS_OF_STEP::require_shapes(const SystemType& system) {

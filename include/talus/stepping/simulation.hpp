@@ -101,7 +101,10 @@ class Simulation {
     const Solver& solver() const { return solver_; }
     const Data& data() const { return data_; }  ///< of the last step
     /// Impulses remembered for the warm start; clear it to make the next step start cold.
-    ImpulseCache<Dim>& impulse_cache() { return integrator_.impulse_cache(); }
+    ImpulseCache<Dim>& impulse_cache() {
+        integrator_.follow(system_.bodies);
+        return integrator_.impulse_cache();
+    }
     /// Called between the stages of a step (step_hooks.hpp).
     Hooks& hooks() { return integrator_.hooks(); }
     /// The correction of positions, if the types have one: its settings are in `params`.

@@ -92,6 +92,16 @@ struct System {
         return body;
     }
 
+    /// Takes out the bodies, free ones and obstacles, for which `out(i)` holds. Those after them
+    /// move up: indices change, ids do not, and the contacts between those that stay keep the
+    /// impulses that the next step begins with. O(bodies) for any number: take out many at once.
+    /// `StepData` of steps before is of the bodies there were then.
+    template <class Out>
+    std::size_t remove_if(Out&& out);
+    /// Those of these names. Throws input_error, and removes none, if there is no such body.
+    void remove(std::span<const BodyId> ids);
+    void remove(BodyId id) { remove(std::span(&id, 1)); }
+
     /// Shapes in the bodies' frames, one for each body.
     std::span<const ShapeType> shapes() const { return shapes_; }
     /// Of each shape about the body's centre; infinite where it has no bound [m].
@@ -151,6 +161,13 @@ struct System {
     void require_between_steps() const;
     void check_material(MaterialIndex material) const;
     BodyIndex attach(BodyIndex body, ShapeType shape);
+    void move_up(const std::vector<BodyIndex>& to);
+    /// Into the mean, as the last of those counted.
+    void count_radius(std::size_t i) {
+        if (!std::isfinite(bounding_radius_[i]) || bodies.is_obstacle(i)) return;
+        bounded_radius_sum_ += bounding_radius_[i];
+        ++bounded_count_;
+    }
     void replace_shape(std::size_t body, ShapeType shape);
     static double radius_of(const ShapeType& shape);
     static double thickness_of(const ShapeType& shape, double radius) {
@@ -185,7 +202,70 @@ struct System {
     std::size_t bounded_count_ = 0;
 };
 
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+template <class Out>
+std::size_t System<Dim, Law, ShapeType>::remove_if(Out&& out) {
+    require_between_steps();
+    const std::size_t n = bodies.count();
+    // All that may throw comes first.
+    for (const Obstacle& obstacle : obstacles)
+        require_in("body of an obstacle", obstacle.body, 0.0, static_cast<double>(n) - 1.0);
+    std::vector<BodyIndex> to(n, -1);
+    BodyIndex kept = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        if (!out(i)) to[i] = kept++;
+    move_up(to);
+    return n - static_cast<std::size_t>(kept);
+}
+
 // Defined apart, so that `extern template` can keep them from being compiled in every file.
+
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::remove(std::span<const BodyId> ids) {
+    std::vector<bool> out(bodies.count(), false);
+    for (const BodyId id : ids) out[static_cast<std::size_t>(bodies.index(id))] = true;
+    remove_if([&](std::size_t i) { return out[i]; });
+}
+
+/// `to`: the new index of each body, -1 for those that go.
+template <int Dim, class Law, class ShapeType>
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::move_up(const std::vector<BodyIndex>& to) {
+    bodies.keep_if([&](std::size_t i) { return to[i] >= 0; });
+    bounded_radius_sum_ = 0.0;
+    bounded_count_ = 0;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        if (to[i] < 0) continue;
+        if (kept != i) shapes_[kept] = std::move(shapes_[i]);
+        bounding_radius_[kept] = bounding_radius_[i];
+        half_thickness_[kept] = half_thickness_[i];
+        count_radius(kept);
+        ++kept;
+    }
+    // (Not resize: a shape need not be default-constructible.)
+    shapes_.erase(shapes_.begin() + static_cast<std::ptrdiff_t>(kept), shapes_.end());
+    bounding_radius_.resize(kept);
+    half_thickness_.resize(kept);
+    std::size_t listed = 0;
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        const BodyIndex body = to[static_cast<std::size_t>(obstacles[k].body)];
+        if (body < 0) continue;
+        if (listed != k) obstacles[listed] = std::move(obstacles[k]);
+        obstacles[listed].body = body;
+        if (k < placed_.size()) {
+            placed_[listed] = placed_[k];
+            if (placed_[listed].body >= 0)
+                placed_[listed].body = to[static_cast<std::size_t>(placed_[listed].body)];
+        }
+        ++listed;
+    }
+    obstacles.erase(obstacles.begin() + static_cast<std::ptrdiff_t>(listed), obstacles.end());
+    placed_.resize(std::min(placed_.size(), listed));
+    shapes_version_ = new_version();
+}
 
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
@@ -224,22 +304,7 @@ template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::require_masses() const {
     const std::size_t n = bodies.count();
-    require_count("inverse masses", bodies.inverse_mass.size(), "bodies", n);
-    require_count("inverse moments of inertia", bodies.inverse_inertia.size(), "bodies", n);
-    std::size_t immovable = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double inverse = bodies.inverse_mass[i];
-        const AngularVector<Dim>& moments = bodies.inverse_inertia[i];
-        if (!(inverse >= 0.0 && std::isfinite(inverse)))
-            detail::reject(detail::numbered("inverse mass of body", i), inverse,
-                           "finite and not negative");
-        if (!(moments.minCoeff() >= 0.0 && moments.allFinite()))
-            detail::reject(detail::numbered("inverse moment of inertia of body", i),
-                           moments.allFinite() ? moments.minCoeff() : moments.sum(),
-                           "finite and not negative");
-        immovable += inverse == 0.0 ? 1 : 0;
-    }
-    if (immovable == obstacles.size()) return;
+    if (require_masses_of(bodies) == obstacles.size()) return;
     const auto has_motion = [&](std::size_t i) {
         return std::any_of(obstacles.begin(), obstacles.end(), [i](const Obstacle& obstacle) {
             return static_cast<std::size_t>(obstacle.body) == i;
@@ -286,10 +351,7 @@ requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(BodyI
     half_thickness_.push_back(thickness_of(shape, radius));
     shapes_.push_back(std::move(shape));
     shapes_version_ = new_version();
-    if (std::isfinite(radius) && !bodies.is_obstacle(static_cast<std::size_t>(body))) {
-        bounded_radius_sum_ += radius;
-        ++bounded_count_;
-    }
+    count_radius(static_cast<std::size_t>(body));
     return body;
 }
 
