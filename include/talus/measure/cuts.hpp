@@ -7,6 +7,7 @@
 #include <talus/problem/contact_problem.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -54,10 +55,8 @@ class FlatCut {
         return before < 0.0 ? 1 : -1;
     }
     double area() const {
-        if constexpr (Dim == 2)
-            return 2.0 * half_size_;
-        else
-            return std::numbers::pi * half_size_ * half_size_;
+        constexpr std::array unit{2.0, std::numbers::pi};  // of half length, of radius 1
+        return unit[Dim - 2] * std::pow(half_size_, Dim - 1);
     }
     const Vector<Dim>& centre() const { return centre_; }
     const Vector<Dim>& normal_at(const Vector<Dim>&) const { return normal_; }
