@@ -200,6 +200,7 @@ TALUS_OF_STEP::follow(const Bodies<Dim>& bodies) {
     const auto& ids = bodies.id;
     const bool same = remembered_.size() <= ids.size() &&
                       std::equal(remembered_.begin(), remembered_.end(), ids.begin());
+    remembered_.reserve(ids.size());  // what may throw comes first
     if (!same) {
         std::vector<BodyIndex> to(remembered_.size(), -1);
         for (std::size_t i = 0, j = 0; i < remembered_.size(); ++i) {
