@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
+#include <talus/law/cohesive.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/law/signorini.hpp>
 #include <talus/law/weighted_mean.hpp>
