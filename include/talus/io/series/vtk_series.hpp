@@ -6,6 +6,7 @@
 #include <talus/io/vtk.hpp>
 #include <talus/io/write_file.hpp>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -71,9 +72,10 @@ class VtkSeries {
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
             "byte_order=\"LittleEndian\">\n<Collection>\n";
         for (std::size_t k = 0; k < times_.size(); ++k) {
-            char digits[32];
-            const auto end = std::to_chars(digits, digits + sizeof digits, times_[k]).ptr;
-            text += before_time + std::string(digits, end) + "\" part=\"0\" file=\"" +
+            std::array<char, 32> digits{};
+            const auto end =
+                std::to_chars(digits.data(), digits.data() + digits.size(), times_[k]).ptr;
+            text += before_time + std::string(digits.data(), end) + "\" part=\"0\" file=\"" +
                     detail::xml_escaped(name_of(k)) + "\"/>\n";
         }
         write_file(list_, text + "</Collection>\n</VTKFile>\n");
