@@ -71,6 +71,9 @@ class AnticipatedContacts {
     /// good as they are. Closed are those of gap <= tolerance.
     bool concerns(const Encounter& e) const;
     bool has_sides(const Encounter& e) const;
+    /// Whether two round bodies go past each other by enough for their normal to turn: else that of
+    /// the nearest points is theirs.
+    bool turns_around(const Encounter& e) const;
     /// Looks for the contacts that the motion as now known leads to.
     void judge(Encounter& e);
     bool hold_up_bodies(const Encounter& e);
@@ -179,7 +182,23 @@ TALUS_OF_ANTICIPATED(bool)::concerns(const Encounter& e) const {
 TALUS_OF_ANTICIPATED(bool)::has_sides(const Encounter& e) const {
     return e.shape_a.access->support && e.shape_b.access->support &&
            e.shape_a.kind() != ShapeKind::half_space && e.shape_b.kind() != ShapeKind::half_space &&
+           (e.shape_a.kind() == ShapeKind::core || e.shape_b.kind() == ShapeKind::core ||
+            turns_around(e)) &&
            moving(e.a, e.shape_a).foreseeable() && moving(e.b, e.shape_b).foreseeable();
+}
+
+TALUS_OF_ANTICIPATED(bool)::turns_around(const Encounter& e) const {
+    constexpr double least_turn = 0.01;  // [rad]: an error of 5e-5 of the size in the gap
+    const auto size = [](const ShapeView<Dim>& shape) {
+        const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
+        return 0.5 * (box.high - box.low).maxCoeff();
+    };
+    const ContactPoint<Dim>& c = nearest_of(e).front();
+    const Vector<Dim> change =
+        motion_.motion(e.a).at(c.point - bodies_->position[static_cast<std::size_t>(e.a)]) -
+        motion_.motion(e.b).at(c.point - bodies_->position[static_cast<std::size_t>(e.b)]);
+    const Vector<Dim> past = change - c.normal * c.normal.dot(change);
+    return Foresight::steps * past.norm() > least_turn * std::min(size(e.shape_a), size(e.shape_b));
 }
 
 TALUS_OF_ANTICIPATED(void)::judge(Encounter& e) {

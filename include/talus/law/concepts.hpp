@@ -71,4 +71,14 @@ inline constexpr bool has_rolling_rows = [] {
         return false;
 }();
 
+/// Whether a law says of itself, by `pushes_only`, that it never pulls, so that nobody need ask it
+/// at every contact. Adaptors pass on what they hold.
+template <class L>
+inline constexpr bool pushes_only = [] {
+    if constexpr (requires { L::pushes_only; })
+        return L::pushes_only;
+    else
+        return false;
+}();
+
 }  // namespace talus

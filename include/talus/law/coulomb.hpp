@@ -18,6 +18,8 @@ namespace talus {
 template <int Dim>
 requires SpaceDimension<Dim>
 struct Coulomb {
+    static constexpr bool pushes_only = true;
+
     double mu = 0.0;  ///< friction coefficient [-], finite, not negative
 
     CoulombBlock<Dim> prepare(const Matrix<Dim>& w) const { return CoulombBlock<Dim>(w); }

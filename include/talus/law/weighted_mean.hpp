@@ -24,6 +24,7 @@ namespace talus {
 template <int Rows, LawWithoutRestitution<Rows> Law>
 struct WeightedMean {
     static constexpr bool rolling_rows = has_rolling_rows<Law>;
+    static constexpr bool pushes_only = talus::pushes_only<Law>;
 
     Law law;                              ///< the relation obeyed by the mean velocity
     double restitution_normal = 0.0;      ///< e_n [-], in [0, 1]; 0 is soft, 1 bounces back

@@ -61,12 +61,14 @@ double pull(const Law& law, double v) {
 /// reach across the gap.
 template <int Dim, class Law>
 bool attracts(const Law& law) {
+    if constexpr (pushes_only<Law>) return false;
     return detail::pull<Dim>(law, 1.0) > 0.0;
 }
 
 /// Whether it does with any impulse that it takes, as a pin does.
 template <int Dim, class Law>
 bool holds_any_pull(const Law& law) {
+    if constexpr (pushes_only<Law>) return false;
     constexpr double fast = 1e100;  // beyond any cohesion; its square is finite
     return detail::pull<Dim>(law, fast) >= 0.5 * fast;
 }
