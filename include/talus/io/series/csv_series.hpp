@@ -28,11 +28,10 @@ namespace talus {
 /// handed to the system as it is added, so that a run that is killed leaves all rows but, at worst,
 /// a part of the last.
 ///
-///     CsvSeries table("energy.csv", {{"kinetic energy", "J"}, {"contacts", "-"}});
-///     table.add(sim.time(), {kinetic_energy(bodies), count});
-///     // in a run that goes on from t0: after the rows up to then
-///     auto more = CsvSeries::resumed("energy.csv", {{"kinetic energy", "J"}, {"contacts", "-"}},
-///     t0);
+///     CsvSeries table("energy.csv", {{"kinetic energy", "J"}});
+///     table.add(0.5, {1.25});
+///     // In a run that goes on from 0.5 s: after the rows up to then.
+///     auto more = CsvSeries::resumed("energy.csv", {{"kinetic energy", "J"}}, 0.5);
 class CsvSeries {
   public:
     struct Column {
