@@ -45,8 +45,8 @@ class AnticipatedContacts {
 
     /// Appends the contacts of all pairs, sorted. In the place of those that the motion would close
     /// are the ones that it leads to. Those of half-spaces, which have one normal alone, and of
-    /// shapes without a support mapping stay. What takes the place of
-    /// open contacts, of gap > tolerance, is open.
+    /// shapes without a support mapping stay. What takes the place of open contacts, of gap >
+    /// tolerance, is open.
     void finish(ContactSet<Dim>& contacts);
 
   private:
@@ -70,6 +70,11 @@ class AnticipatedContacts {
     /// Whether the foreseen motion would close some contact, or closes one further: else they are
     /// good as they are. Closed are those of gap <= tolerance.
     bool concerns(const Encounter& e) const;
+    /// How far A goes past B there in one step.
+    Vector<Dim> change_at(const Encounter& e, const Vector<Dim>& point) const {
+        return motion_.motion(e.a).at(point - bodies_->position[e.a]) -
+               motion_.motion(e.b).at(point - bodies_->position[e.b]);
+    }
     bool has_sides(const Encounter& e) const;
     /// Whether two round bodies go past each other by enough for their normal to turn: else that of
     /// the nearest points is theirs.
@@ -168,11 +173,8 @@ TALUS_OF_ANTICIPATED(void)::add_parts(const Encounter& pair,
 }
 
 TALUS_OF_ANTICIPATED(bool)::concerns(const Encounter& e) const {
-    const auto a = static_cast<std::size_t>(e.a), b = static_cast<std::size_t>(e.b);
     const auto closes = [&](const ContactPoint<Dim>& c) {
-        const Vector<Dim> change = motion_.motion(e.a).at(c.point - bodies_->position[a]) -
-                                   motion_.motion(e.b).at(c.point - bodies_->position[b]);
-        const double way = Foresight::steps * c.normal.dot(change);
+        const double way = Foresight::steps * c.normal.dot(change_at(e, c.point));
         return c.gap > tolerance_ ? c.gap + way < 0.0 : way < -least_approach * e.reach;
     };
     const std::span<const ContactPoint<Dim>> nearest = nearest_of(e);
@@ -194,9 +196,7 @@ TALUS_OF_ANTICIPATED(bool)::turns_around(const Encounter& e) const {
         return 0.5 * (box.high - box.low).maxCoeff();
     };
     const ContactPoint<Dim>& c = nearest_of(e).front();
-    const Vector<Dim> change =
-        motion_.motion(e.a).at(c.point - bodies_->position[static_cast<std::size_t>(e.a)]) -
-        motion_.motion(e.b).at(c.point - bodies_->position[static_cast<std::size_t>(e.b)]);
+    const Vector<Dim> change = change_at(e, c.point);
     const Vector<Dim> past = change - c.normal * c.normal.dot(change);
     return Foresight::steps * past.norm() > least_turn * std::min(size(e.shape_a), size(e.shape_b));
 }
