@@ -2,10 +2,30 @@
 // Small heaps of balls in a box, for tests of whole runs.
 #pragma once
 
+#include <cstring>
+#include <vector>
+
 #include "common/random.hpp"
 #include "experiment.hpp"
 
 namespace experiment {
+
+/// State of all bodies, number by number.
+template <int Dim>
+std::vector<double> everything(const talus::Bodies<Dim>& bodies) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+        for (const double x : bodies.position[i]) all.push_back(x);
+        const talus::Matrix<Dim> axes = bodies.rotation[i].matrix();
+        for (int k = 0; k < Dim * Dim; ++k) all.push_back(axes.data()[k]);
+        for (const double x : bodies.velocity[i]) all.push_back(x);
+        for (const double x : bodies.spin[i]) all.push_back(x);
+    }
+    return all;
+}
+inline bool equal_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), 8 * a.size()) == 0;
+}
 
 /// With correction of positions.
 template <int Dim>

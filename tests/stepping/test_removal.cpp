@@ -5,7 +5,6 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <cstring>
 #include <stdexcept>
 #include <vector>
 
@@ -16,21 +15,6 @@ using namespace experiment;
 
 BOOST_AUTO_TEST_SUITE(stepping_removal)
 
-template <int Dim>
-std::vector<double> state(const talus::Bodies<Dim>& bodies) {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < bodies.count(); ++i) {
-        for (const double x : bodies.position[i]) all.push_back(x);
-        const talus::Matrix<Dim> axes = bodies.rotation[i].matrix();
-        all.insert(all.end(), axes.data(), axes.data() + Dim * Dim);
-        for (const double x : bodies.velocity[i]) all.push_back(x);
-        for (const double x : bodies.spin[i]) all.push_back(x);
-    }
-    return all;
-}
-bool equal_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), 8 * a.size()) == 0;
-}
 template <int Dim>
 std::vector<talus::BodyId> ids(const talus::Bodies<Dim>& bodies) {
     return {bodies.id.begin(), bodies.id.end()};
@@ -76,7 +60,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_goes_on_as_if_alone, D, dimensions) {
         sim.step();
         alone.step();
         BOOST_REQUIRE(sim.data().recalled == alone.data().recalled);
-        BOOST_REQUIRE(equal_bits(state(sim.system().bodies), state(alone.system().bodies)));
+        BOOST_REQUIRE(
+            equal_bits(everything(sim.system().bodies), everything(alone.system().bodies)));
     }
 }
 
@@ -177,14 +162,14 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_source_and_a_sink, D, dimensions) {
 BOOST_AUTO_TEST_CASE(what_throws_removes_nothing) {
     auto sim = heap<2>(3, 3, law<2>(0.4), 2e-3);
     sim.step();
-    const auto before = state(sim.system().bodies);
+    const auto before = everything(sim.system().bodies);
     const auto names = ids(sim.system().bodies);
     BOOST_CHECK_THROW(sim.system().remove_if([](std::size_t i) -> bool {
         if (i == 5) throw std::runtime_error("no");
         return true;
     }),
                       std::runtime_error);
-    BOOST_TEST(equal_bits(before, state(sim.system().bodies)));
+    BOOST_TEST(equal_bits(before, everything(sim.system().bodies)));
     BOOST_TEST((names == ids(sim.system().bodies)));
     sim.system().forces.push_back(
         [&](double, const auto&, auto) { sim.system().remove(names[7]); });

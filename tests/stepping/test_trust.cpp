@@ -10,7 +10,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <span>
@@ -46,22 +45,6 @@ template <int Dim>
 struct MoodyTypes : Corrected<Dim> {
     using Solver = Moody<Dim>;
 };
-
-template <int Dim>
-std::vector<double> everything(const talus::Bodies<Dim>& bodies) {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < bodies.count(); ++i) {
-        for (const double x : bodies.position[i]) all.push_back(x);
-        const talus::Matrix<Dim> axes = bodies.rotation[i].matrix();
-        for (int k = 0; k < Dim * Dim; ++k) all.push_back(axes.data()[k]);
-        for (const double x : bodies.velocity[i]) all.push_back(x);
-        for (const double x : bodies.spin[i]) all.push_back(x);
-    }
-    return all;
-}
-bool equal_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), 8 * a.size()) == 0;
-}
 
 template <int Dim>
 talus::Simulation<Dim> boxes_on_a_floor(int count, double half = 0.5) {
