@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-PHYSICS = {"core", "spatial", "geometry", "collision", "dynamics"}
+PHYSICS = {"core", "spatial", "geometry", "geometry/hull", "collision", "dynamics"}
 ALGEBRA = {"core", "law", "problem", "linear", "solver", "solver/sweeps", "solver/cones", "solver/oracle"}
 # What the rooms of `solver` may know of its top: what a solver is, and what it reports.
 SOLVER = {"core", "law", "problem", "solver/concepts", "solver/report"}
@@ -17,7 +17,8 @@ LAYERS = {
     "spatial": {"core"},
     "law": {"core"},
     "problem": {"core", "law"},
-    "geometry": {"core", "spatial"},
+    "geometry/hull": {"core"},
+    "geometry": {"core", "spatial", "geometry/hull"},
     "dynamics": {"core", "spatial"},
     "linear": {"core"},
     "solver/sweeps": SOLVER,
@@ -27,10 +28,12 @@ LAYERS = {
     "collision": {"core", "spatial", "geometry"},
     "assembly": {"core", "spatial", "collision", "dynamics", "law", "problem"},
     "stepping": PHYSICS | ALGEBRA | {"assembly"},
-    "sample": {"core", "spatial", "geometry", "collision/gjk", "dynamics"},
+    "feed": PHYSICS | {"law", "sample", "stepping/system"},
+    "sample": {"core", "spatial", "geometry", "geometry/hull", "collision/gjk", "dynamics"},
     "measure": PHYSICS | {"law", "problem"},
     "io/mesh": {"core", "io/line_reader"},
     "io/series": {"core", "io/vtk", "io/write_file"},
+    "io/checkpoint": {"core", "spatial", "dynamics", "io/hdf5_reader", "io/hdf5_writer"},
     "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
 }
 LONGEST_HEADER = 400
@@ -113,7 +116,18 @@ class Tree:
         for part in ("include", "tests", "examples", "bench", "validation"):
             for path in sorted((self.root / part).rglob("*.[ch]pp")):
                 self.check_source(path)
+        for page in sorted((self.root / "tests").glob("*/CMakeLists.txt")):
+            self.check_tests(page)
         return self.violations
+
+    def check_tests(self, page):
+        """A file of tests that its folder's list leaves out is never run."""
+        text = page.read_text()
+        if re.search(r"GLOB[^)]*\btest_\*\.cpp", text):
+            return
+        for path in sorted(page.parent.glob("test_*.cpp")):
+            if not re.search(r"\b%s\b" % re.escape(path.stem), text):
+                self.report(path, 0, "a file of tests that CMakeLists.txt does not name")
 
     def check_source(self, path):
         text = path.read_text()

@@ -46,7 +46,7 @@ struct Row {
     std::string said(std::vector<talus::CandidatePair> pairs) {
         Told::pairs = std::move(pairs);
         try {
-            detection.detect(bodies, shapes, 1, radius, 0.1, reach, {}, 0.0, contacts);
+            detection.detect(bodies, shapes, 1, radius, 0.1, reach, {}, 0.0, {}, contacts);
         } catch (const talus::input_error& error) {
             return error.what();
         }

@@ -25,6 +25,9 @@ Eigen::MatrixXd dense_delassus(const talus::ContactJacobian<Dim>& jacobian,
         const auto body = static_cast<std::size_t>(k);
         m.block<Dim, Dim>(k * dof, k * dof) =
             inverse_mass.linear[body] * talus::Matrix<Dim>::Identity();
+        if (!inverse_mass.free_axes.empty())
+            for (int d = 0; d < Dim; ++d)
+                m(k * dof + d, k * dof + d) *= inverse_mass.free_axes[body][d];
         m.block<dof - Dim, dof - Dim>(k * dof + Dim, k * dof + Dim) = inverse_mass.angular[body];
     }
     for (Eigen::Index i = 0; i < contacts; ++i) {

@@ -20,6 +20,7 @@ struct RandomProblem {
     double mass_ratio = 3.0;      ///< between the heaviest and the lightest
     double arm = 0.3;             ///< length of the lever arms [m]
     bool scalar_inertia = false;  ///< as balls
+    bool guided = false;          ///< some axes are locked
 
     Problem make(RandomBlocks& random, const Law& law) const {
         Problem p;
@@ -28,6 +29,11 @@ struct RandomProblem {
             const bool obstacle = k + 1 == p.inverse_mass.body_count();
             p.inverse_mass.linear[k] = obstacle ? 0.0 : random.log_uniform(1.0 / mass_ratio, 1.0);
             p.inverse_mass.angular[k] = inverse_inertia(random) * p.inverse_mass.linear[k];
+        }
+        if (guided) {
+            p.inverse_mass.free_axes.assign(p.inverse_mass.body_count(),
+                                            talus::Vector<Dim>::Ones());
+            for (auto& axes : p.inverse_mass.free_axes) axes[random.integer(0, Dim - 1)] = 0.0;
         }
         p.jacobian.resize(static_cast<std::size_t>(contacts));
         for (std::size_t i = 0; i < p.jacobian.contact_count(); ++i) {

@@ -23,6 +23,7 @@ class ShapeTester {
         check_bounds_and_support();
         check_placing();
         check_principal_frame();
+        check_record();
     }
 
   private:
@@ -59,6 +60,20 @@ class ShapeTester {
         BOOST_CHECK_SMALL((m.centroid - first / volume).norm(), sampling * size);
         second -= first * first.transpose() / volume;
         BOOST_CHECK_SMALL((m.inertia - inertia(second)).norm(), sampling * volume * size * size);
+    }
+    /// A shape that was written down, placed or not, is the same to the last bit.
+    void check_record() const {
+        if constexpr (talus::Recordable<S>) {
+            random_geometry::Generator g(9);
+            for (const S& s : {shape_, shape_.placed(random_geometry::pose<Dim>(g, 2.0))}) {
+                const talus::NumberRecord record = talus::record_of(s);
+                const S same = talus::from_record<S>(record);
+                BOOST_TEST((talus::record_of(same) == record));
+                const Pose at = random_geometry::pose<Dim>(g, 2.0);
+                BOOST_TEST((same.aabb(at).low == s.aabb(at).low));
+                BOOST_TEST((same.mass_properties().inertia == s.mass_properties().inertia));
+            }
+        }
     }
     /// The box is tight; no inner point is farther than the support, which is on the shape.
     void check_bounds_and_support() const {

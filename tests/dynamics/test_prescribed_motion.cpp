@@ -63,7 +63,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_motion_of_a_pose_alone_has_the_twist_of_its_pose
         BOOST_TEST(std::abs(motion.twist(t).linear[1] - 60.0 * std::cos(300.0 * t)) < 1e-7);
         BOOST_TEST((motion.twist(t).angular - spin).norm() < 1e-8);
     }
-    BOOST_CHECK_THROW(talus::PrescribedMotion<Dim>::of_pose(motion.pose, 0.0), talus::input_error);
+    BOOST_CHECK_THROW(
+        talus::PrescribedMotion<Dim>::of_pose([&](double t) { return motion.pose(t); }, 0.0),
+        talus::input_error);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_table_of_displacements_is_met_and_smooth, D, dimensions) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <talus/geometry/convex_polytope.hpp>
-#include <talus/geometry/coordinate_rounding.hpp>
+#include <talus/geometry/hull/coordinate_rounding.hpp>
 #include <talus/io/mesh/read_obj.hpp>
 #include <talus/io/mesh/read_stl.hpp>
 #include <talus/io/scene_file.hpp>

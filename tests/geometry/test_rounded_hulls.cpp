@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/geometry/convex_polytope.hpp>
-#include <talus/geometry/coordinate_rounding.hpp>
+#include <talus/geometry/hull/coordinate_rounding.hpp>
 
 #include <boost/test/unit_test.hpp>
 

@@ -126,9 +126,11 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_cannot_move_has_no_rows, D, dimensions) {
     m.angular[2].setZero();
     m.angular[3].setZero();  // turns about one axis only
     m.angular[3](0, 0) = 2.0;
+    m.free_axes.assign(6, talus::Vector<dim>::Ones());
+    m.free_axes[4][0] = 0.0;  // on a rail
     const talus::BodyMap<dim> map(p.jacobian, m);
     const int turns = talus::rotation_dof<dim>;
-    const std::vector<int> expected{dim, turns, dim + 1, dim + turns};
+    const std::vector<int> expected{dim, turns, dim + 1, dim - 1 + turns};
     BOOST_TEST(std::vector<int>(map.body_sizes().begin(), map.body_sizes().end()) == expected,
                boost::test_tools::per_element());
     check_map<dim>(map, dense_delassus<dim>(p.jacobian, m), random);

@@ -182,8 +182,8 @@ TALUS_OF_ANTICIPATED(bool)::concerns(const Encounter& e) const {
 }
 
 TALUS_OF_ANTICIPATED(bool)::has_sides(const Encounter& e) const {
-    return e.shape_a.access->support && e.shape_b.access->support &&
-           e.shape_a.kind() != ShapeKind::half_space && e.shape_b.kind() != ShapeKind::half_space &&
+    return e.shape_a.access->support && e.shape_b.access->support && !e.shape_a.is_wall() &&
+           !e.shape_b.is_wall() &&
            (e.shape_a.kind() == ShapeKind::core || e.shape_b.kind() == ShapeKind::core ||
             turns_around(e)) &&
            moving(e.a, e.shape_a).foreseeable() && moving(e.b, e.shape_b).foreseeable();

@@ -14,14 +14,19 @@ namespace talus {
 template <int Dim>
 void apply_impulses(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
                     std::span<const Vector<Dim>> r, std::span<Twist<Dim>> twists) {
+    const auto moved = [&](std::size_t k, const Vector<Dim>& impulse) -> Vector<Dim> {
+        const Vector<Dim> change = inverse_mass.linear[k] * impulse;
+        return inverse_mass.free_axes.empty() ? change
+                                              : change.cwiseProduct(inverse_mass.free_axes[k]);
+    };
     for (std::size_t c = 0; c < r.size(); ++c) {
         const auto a = static_cast<std::size_t>(jacobian.a[c]);
         const auto b = static_cast<std::size_t>(jacobian.b[c]);
         const Vector<Dim> impulse_world = jacobian.frame[c].transpose() * r[c];
-        twists[a].linear += inverse_mass.linear[a] * impulse_world;
+        twists[a].linear += moved(a, impulse_world);
         twists[a].angular +=
             inverse_mass.angular[a] * moment<Dim>(jacobian.arm_a[c], impulse_world);
-        twists[b].linear -= inverse_mass.linear[b] * impulse_world;
+        twists[b].linear -= moved(b, impulse_world);
         twists[b].angular -=
             inverse_mass.angular[b] * moment<Dim>(jacobian.arm_b[c], impulse_world);
     }

@@ -27,11 +27,13 @@ class ContactDetection {
     /// gives more candidates, kept for longer. All in [m]. `version` is another number whenever
     /// some shape is another. If `motion` is given, of each body over one step [m, rad], contacts
     /// are those that it leads to (anticipated_contacts.hpp), where that differs; of bodies that
-    /// touch, gap <= `tolerance`, only if they slide past that side. Throws input_error naming a
-    /// pair of the broad phase that is none.
+    /// touch, gap <= `tolerance`, only if they slide past that side. Bodies whose groups do not
+    /// meet, and pairs `ignored`, have no contacts. Throws input_error naming a pair of the broad
+    /// phase that is none.
     void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, std::uint64_t version,
                 std::span<const double> radius, double skin, std::span<const double> reach,
-                std::span<const Twist<Dim>> motion, double tolerance, ContactSet<Dim>& contacts) {
+                std::span<const Twist<Dim>> motion, double tolerance, const IgnoredPairs& ignored,
+                ContactSet<Dim>& contacts) {
         if (!found_ || version != version_ || left_a_box(bodies, radius, reach)) {
             found_ = false;  // so that a failure on the way leaves nothing that looks found
             find_candidates(bodies, shapes, skin, reach);
@@ -43,6 +45,8 @@ class ContactDetection {
         for (const CandidatePair& pair : candidates_) {
             const auto a = static_cast<std::size_t>(pair.a);
             const auto b = static_cast<std::size_t>(pair.b);
+            if (!may_meet(bodies.groups[a], bodies.groups[b])) continue;
+            if (!ignored.empty() && ignored.contains(bodies.id[a], bodies.id[b])) continue;
             points_.clear();
             try {
                 contact_points<Dim>(shapes[a], bodies.pose(a), shapes[b], bodies.pose(b),

@@ -53,10 +53,16 @@ void hold_surfaces(std::span<const Twist<Dim>> excess, ContactJacobian<Dim>& jac
 /// Fills M^-1 for a configuration, in world axes. O(bodies).
 template <int Dim>
 void assemble_inverse_mass(const Bodies<Dim>& bodies, InverseMass<Dim>& inverse_mass) {
+    inverse_mass.free_axes.clear();
     inverse_mass.resize(bodies.count());
     for (std::size_t i = 0; i < bodies.count(); ++i) {
         inverse_mass.linear[i] = bodies.inverse_mass[i];
         inverse_mass.angular[i] = inverse_inertia_world<Dim>(bodies, i);
+        const LockedAxes<Dim>& locked = bodies.locked[i];
+        if (!locked.any()) continue;
+        inverse_mass.free_axes.resize(bodies.count(), Vector<Dim>::Ones());
+        inverse_mass.free_axes[i] = locked.free_part(Vector<Dim>::Ones());
+        inverse_mass.angular[i] = locked.free_part(inverse_mass.angular[i]);
     }
 }
 

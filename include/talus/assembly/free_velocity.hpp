@@ -22,7 +22,9 @@ template <int Dim>
 GyroscopicChange<Dim> gyroscopic_change(const Bodies<Dim>& bodies, std::size_t i, double h,
                                         Gyroscopic gyroscopic) {
     const AngularVector<Dim>& inverse = bodies.inverse_inertia[i];
-    if (inverse == AngularVector<Dim>::Constant(inverse[0]) || !(inverse.minCoeff() > 0.0))
+    // About a guided axis no gyroscopic moment acts: it is across.
+    if (inverse == AngularVector<Dim>::Constant(inverse[0]) || !(inverse.minCoeff() > 0.0) ||
+        bodies.locked[i].rotation_count() > 0)
         return {AngularVector<Dim>::Zero()};
     const AngularVector<Dim> moments = bodies.inertia(i);
     if (gyroscopic == Gyroscopic::explicit_term)
@@ -41,6 +43,14 @@ Twist<Dim> free_velocity(const Bodies<Dim>& bodies, std::size_t i, double h,
                          const AngularVector<Dim>& gyroscopic) {
     Twist<Dim> free = bodies.twist(i);
     if (bodies.is_obstacle(i)) return free;
+    if (const LockedAxes<Dim>& locked = bodies.locked[i]; locked.any()) {
+        free.linear = locked.free_part(
+            Vector<Dim>(free.linear + h * (gravity + bodies.inverse_mass[i] * applied.force)));
+        const AngularMatrix<Dim> mobility = locked.free_part(inverse_inertia_world(bodies, i));
+        free.angular =
+            locked.free_turn(AngularVector<Dim>(free.angular + h * (mobility * applied.torque)));
+        return free;
+    }
     const Rotation<Dim>& rotation = bodies.rotation[i];
     const AngularVector<Dim> torque = rotation.spin_body(applied.torque);
     free.linear += h * (gravity + bodies.inverse_mass[i] * applied.force);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <talus/collision/contact_set.hpp>
+#include <talus/core/input.hpp>
 #include <talus/core/room.hpp>
 #include <talus/problem/contact_problem.hpp>
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -60,6 +62,22 @@ class ImpulseCache {
         }
         key_.resize(kept);
         impulse_.resize(kept);
+    }
+
+    /// Replaces the memory by these contacts, ascending, and impulses in world axes. Throws
+    /// input_error, and remembers what it did, unless they are so, as many as each other and
+    /// finite.
+    void assign(std::vector<ContactKey> key, std::vector<Vector<Dim>> impulse) {
+        require_count("impulses remembered", impulse.size(), "contacts", key.size());
+        for (std::size_t c = 0; c < key.size(); ++c) {
+            require_finite("impulse remembered", impulse[c]);
+            if (c > 0 && !(key[c - 1] < key[c]))
+                throw input_error(detail::numbered("contact", c,
+                                                   " to be remembered is not after the one before, "
+                                                   "but must be"));
+        }
+        key_ = std::move(key);
+        impulse_ = std::move(impulse);
     }
 
     void clear() {

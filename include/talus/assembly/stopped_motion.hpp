@@ -101,14 +101,22 @@ requires SpaceDimension<Dim>
 bool StoppedMotion<Dim>::act(Stop& stop) {
     const auto a = static_cast<std::size_t>(stop.body[0]);
     const auto b = static_cast<std::size_t>(stop.body[1]);
-    const double inverse_a = released_[a] ? bodies_->inverse_mass[a] : 0.0;
-    const double inverse_b = released_[b] ? bodies_->inverse_mass[b] : 0.0;
+    const auto direction = [&](std::size_t i) {
+        return bodies_->locked[i].any() ? bodies_->locked[i].free_part(stop.normal) : stop.normal;
+    };
+    const auto mobility = [&](std::size_t i) {
+        if (!released_[i]) return 0.0;
+        return bodies_->inverse_mass[i] *
+               (bodies_->locked[i].any() ? direction(i).squaredNorm() : 1.0);
+    };
+    const double inverse_a = mobility(a), inverse_b = mobility(b);
+    if (!(inverse_a + inverse_b > 0.0)) return false;
     const double push = std::max(stop.push - change(stop) / (inverse_a + inverse_b), 0.0);
     const double more = push - stop.push;
     if (std::abs(more) * (inverse_a + inverse_b) <= stop.noise) return false;
     stop.push = push;
-    motion_[a].linear += more * inverse_a * stop.normal;
-    motion_[b].linear -= more * inverse_b * stop.normal;
+    if (released_[a]) motion_[a].linear += more * bodies_->inverse_mass[a] * direction(a);
+    if (released_[b]) motion_[b].linear -= more * bodies_->inverse_mass[b] * direction(b);
     changed_[a] = changed_[a] || released_[a];
     changed_[b] = changed_[b] || released_[b];
     return true;

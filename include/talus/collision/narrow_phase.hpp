@@ -4,9 +4,9 @@
 #include <talus/collision/ball_contacts.hpp>
 #include <talus/collision/contact_point.hpp>
 #include <talus/collision/core_contacts.hpp>
-#include <talus/collision/half_space_contacts.hpp>
 #include <talus/collision/own_pairs.hpp>
 #include <talus/collision/support_contacts.hpp>
+#include <talus/collision/wall_contacts.hpp>
 #include <talus/core/check.hpp>
 #include <talus/core/instantiate.hpp>
 
@@ -75,8 +75,8 @@ void NarrowPhase<Dim>::append(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
     if (kind_a == ShapeKind::ball && kind_b == ShapeKind::ball) {
         append_ball_contact<Dim>(a.template as<Ball<Dim>>(), pose_a, b.template as<Ball<Dim>>(),
                                  pose_b, margin_, out_);
-    } else if (kind_a == ShapeKind::half_space) {
-        if (kind_b != ShapeKind::half_space) append_mirrored(a, pose_a, b, pose_b);
+    } else if (a.is_wall()) {
+        if (!b.is_wall()) append_mirrored(a, pose_a, b, pose_b);
     } else if (kind_a == ShapeKind::compound) {
         append_children_of_a(a, pose_a, b, pose_b);
     } else if (kind_b == ShapeKind::compound) {
@@ -87,6 +87,9 @@ void NarrowPhase<Dim>::append(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
     } else if (kind_a == ShapeKind::core && kind_b == ShapeKind::half_space) {
         append_half_space_contacts<Dim>(a.core(), pose_a, b.template as<HalfSpace<Dim>>(), pose_b,
                                         margin_, out_);
+    } else if (a.has_core() && kind_b == ShapeKind::hole) {
+        append_hole_contacts<Dim>(a.core(), pose_a, b.template as<RoundHole<Dim>>(), pose_b,
+                                  margin_, out_);
     } else if (a.has_core() && b.has_core()) {
         append_core_contacts<Dim>(a.core(), pose_a, b.core(), pose_b, margin_, out_);
     } else {
@@ -190,7 +193,8 @@ constexpr SupportRoutine<Dim> support_routine() {
 /// Appends to `out` every contact point of two placed shapes whose gap is at most `margin` [m];
 /// signs and places as told in contact_point.hpp. The result is a function of the arguments alone;
 /// exchanging the shapes gives the mirrored contacts (of shapes known by their support alone, where
-/// two ways out are as short, maybe those of the other way). Two half-spaces have no contacts.
+/// two ways out are as short, maybe those of the other way). Two walls (half-spaces, round holes)
+/// have no contacts.
 /// `out` keeps its capacity between calls, and nothing else is allocated.
 template <int Dim, class A, class B>
 requires CanMeet<A, B, Dim>

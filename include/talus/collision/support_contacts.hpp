@@ -3,6 +3,7 @@
 
 #include <talus/collision/feature_code.hpp>
 #include <talus/collision/gjk.hpp>
+#include <talus/collision/wall_contacts.hpp>
 #include <talus/core/input.hpp>
 #include <talus/geometry/half_space.hpp>
 #include <talus/geometry/shape_view.hpp>
@@ -320,7 +321,7 @@ void append_lowest_point(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const
 /// to 1e-10 of the smaller size, a point to 1e-7 of it for equal sizes and to the square root of
 /// their ratio times that. Where two ways out are the same to 1e-3 of the depth either may be
 /// taken. Shapes with corners deserve a routine of their own (see PairContacts): one point does not
-/// hold a face still. B may be a half-space.
+/// hold a face still. B may be a wall.
 template <int Dim>
 void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                             const ShapeView<Dim>& b, const Pose<Dim>& pose_b, double margin,
@@ -328,6 +329,9 @@ void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
     if (b.kind() == ShapeKind::half_space)
         return detail::append_lowest_point<Dim>(a, pose_a, b.template as<HalfSpace<Dim>>(), pose_b,
                                                 margin, out);
+    if (b.kind() == ShapeKind::hole)
+        return append_hole_contact_by_support<Dim>(a, pose_a, b.template as<RoundHole<Dim>>(),
+                                                   pose_b, margin, out);
     const Aabb<Dim> box_a = a.aabb(pose_a), box_b = b.aabb(pose_b);
     if (margin >= 0.0 && !box_a.expanded(margin).overlaps(box_b)) return;
     const double size_a = (box_a.high - box_a.low).norm(), size_b = (box_b.high - box_b.low).norm();

@@ -4,6 +4,8 @@
 #include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/per_body.hpp>
+#include <talus/dynamics/collision_filter.hpp>
+#include <talus/dynamics/locked_axes.hpp>
 #include <talus/spatial/inertia.hpp>
 #include <talus/spatial/pose.hpp>
 #include <talus/spatial/twist.hpp>
@@ -36,7 +38,9 @@ struct Bodies {
     PerBody<double> inverse_mass;                 ///< 0 for obstacles [1/kg]
     PerBody<AngularVector<Dim>> inverse_inertia;  ///< principal, 0: does not turn [1/(kg m^2)]
     PerBody<MaterialIndex> material;
-    PerBody<BodyId> id;  ///< ascending
+    PerBody<BodyId> id;               ///< ascending
+    PerBody<LockedAxes<Dim>> locked;  ///< set by `lock`
+    PerBody<CollisionGroups> groups;  ///< whom it can touch
 
     std::size_t count() const { return position.size(); }
     bool is_obstacle(std::integral auto i) const { return inverse_mass[i] == 0.0; }
@@ -66,6 +70,12 @@ struct Bodies {
                           ", but must be that of a body that was not removed");
     }
 
+    /// Of the body that is added next.
+    std::int64_t next_serial() const { return next_serial_; }
+    /// Gives bodies that are added from now on no serial below `next`: those of bodies that are
+    /// gone.
+    void skip_serials(std::int64_t next) { next_serial_ = std::max(next_serial_, next); }
+
     /// Keeps, in their order, the bodies for which `keep(i)` holds. O(bodies).
     template <class Keep>
     void keep_if(Keep&& keep) {
@@ -83,6 +93,8 @@ struct Bodies {
         inverse_inertia.resize(kept);
         material.resize(kept);
         id.resize(kept);
+        locked.resize(kept);
+        groups.resize(kept);
     }
 
     /// Adds a free body. Moments may be infinite: the body then does not turn (a point mass).
@@ -99,6 +111,35 @@ struct Bodies {
     BodyIndex add_obstacle(const Pose<Dim>& pose, const Twist<Dim>& twist = {},
                            MaterialIndex material_index = 0) {
         return append(0.0, AngularVector<Dim>::Zero(), pose, twist, material_index);
+    }
+
+    /// Locks axes of a free body in place of those that were. Throws input_error if it moves along
+    /// one of them, for an obstacle, and where two of three axes of rotation are left free: no
+    /// guide does that.
+    void lock(std::integral auto i, const LockedAxes<Dim>& axes) {
+        require_in("body", static_cast<double>(i), 0.0, static_cast<double>(count()) - 1.0);
+        const auto k = static_cast<std::size_t>(i);
+        if (is_obstacle(k))
+            throw input_error(detail::numbered("body", k,
+                                               " is an obstacle, but must be free to have locked "
+                                               "axes"));
+        if (rotation_dof < Dim >> 1 && axes.rotation_count() == 1)
+            detail::reject("locked axes of rotation", 1, "none, two or three");
+        require_at_rest(k, axes);
+        locked[k] = axes;
+    }
+    /// Throws input_error if body i moves along an axis of these, or turns about one.
+    void require_at_rest(std::size_t i, const LockedAxes<Dim>& axes) const {
+        const Twist<Dim> now = twist(i);
+        constexpr double rounding = 1e-9;  // of spins, which are kept in body axes
+        const Vector<Dim> slip = now.linear - axes.free_part(now.linear);
+        const AngularVector<Dim> turn = now.angular - axes.free_turn(now.angular);
+        if (slip != Vector<Dim>::Zero())
+            detail::reject(detail::numbered("velocity of body", i, " along locked axes"),
+                           slip.norm(), "0");
+        if (!(turn.norm() <= rounding * now.angular.norm()))
+            detail::reject(detail::numbered("spin of body", i, " about locked axes"), turn.norm(),
+                           "0");
     }
 
   private:
@@ -130,6 +171,8 @@ struct Bodies {
         inverse_inertia.push_back(inverse_inertia_);
         material.push_back(material_index);
         id.push_back({next_serial_++});
+        locked.emplace_back();
+        groups.emplace_back();
         return static_cast<BodyIndex>(position.size() - 1);
     }
     void move(std::size_t from, std::size_t to) {
@@ -141,6 +184,8 @@ struct Bodies {
         inverse_inertia[to] = inverse_inertia[from];
         material[to] = material[from];
         id[to] = id[from];
+        locked[to] = locked[from];
+        groups[to] = groups[from];
     }
 
     std::int64_t next_serial_ = 0;
@@ -153,8 +198,11 @@ std::size_t require_masses_of(const Bodies<Dim>& bodies) {
     const std::size_t n = bodies.count();
     require_count("inverse masses", bodies.inverse_mass.size(), "bodies", n);
     require_count("inverse moments of inertia", bodies.inverse_inertia.size(), "bodies", n);
+    require_count("sets of locked axes", bodies.locked.size(), "bodies", n);
+    require_count("groups", bodies.groups.size(), "bodies", n);
     std::size_t without = 0;
     for (std::size_t i = 0; i < n; ++i) {
+        if (bodies.locked[i].any()) bodies.require_at_rest(i, bodies.locked[i]);
         const double inverse = bodies.inverse_mass[i];
         const AngularVector<Dim>& moments = bodies.inverse_inertia[i];
         if (!(inverse >= 0.0 && std::isfinite(inverse)))

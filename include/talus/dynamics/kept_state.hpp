@@ -33,6 +33,8 @@ class KeptState {
         bodies.inverse_inertia.resize(std::min(n, bodies.inverse_inertia.size()));
         bodies.material.resize(std::min(n, bodies.material.size()));
         bodies.id.resize(std::min(n, bodies.id.size()));
+        bodies.locked.resize(std::min(n, bodies.locked.size()));
+        bodies.groups.resize(std::min(n, bodies.groups.size()));
     }
 
   private:

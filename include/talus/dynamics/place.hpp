@@ -50,7 +50,7 @@ bool is_between_differences(const PrescribedMotion<Dim>& motion, const Pose<Dim>
     const auto agrees = [&](const auto& x, const auto& from, const auto& to) {
         // Differences of fourth order (of_pose) overshoot a jump by a sixth of what is seen of it.
         const double room = 0.01 * std::max({from.norm(), to.norm(), x.norm()}) +
-                            (motion.resolution > 0.0 ? 0.2 * (to - from).norm() : 0.0);
+                            (motion.resolution() > 0.0 ? 0.2 * (to - from).norm() : 0.0);
         return distance_from_segment(x, from, to) <= room + rounding;
     };
     return agrees(twist.linear, before.linear, after.linear) &&
@@ -63,7 +63,7 @@ template <int Dim>
 bool twist_belongs(const PrescribedMotion<Dim>& motion, const Pose<Dim>& pose,
                    const Twist<Dim>& twist, double t, double reach) {
     if (is_between_differences(motion, pose, twist, t, reach)) return true;
-    const double wide = 2.0 * motion.resolution;
+    const double wide = 2.0 * motion.resolution();
     return wide > reach && wide <= 1000.0 * reach &&
            is_between_differences(motion, pose, twist, t, wide);
 }
@@ -81,12 +81,13 @@ void place(Bodies<Dim>& bodies, std::size_t i, const PrescribedMotion<Dim>& moti
     if (!pose.position.allFinite() || !pose.rotation.matrix().allFinite() ||
         !twist.linear.allFinite() || !twist.angular.allFinite())
         detail::reject_motion(i, t, " is not finite, but must be");
-    if (reach > 0.0 && !motion.surface_moves &&
+    if (reach > 0.0 && !motion.surface_moves() &&
         !detail::twist_belongs(motion, pose, twist, t, reach))
         detail::reject_motion(
             i, t,
-            motion.resolution > 0.0
-                ? " changes too fast for its resolution of " + detail::text_of(motion.resolution) +
+            motion.resolution() > 0.0
+                ? " changes too fast for its resolution of " +
+                      detail::text_of(motion.resolution()) +
                       " s, but must not: give of_pose a smaller one, or the twist"
                 : std::string(" has a twist that is not that of its pose, but must be: give the "
                               "pose alone (of_pose), or say that the surface moves (belt, "

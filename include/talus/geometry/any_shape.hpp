@@ -8,13 +8,14 @@
 #include <talus/geometry/compound.hpp>
 #include <talus/geometry/convex_polytope.hpp>
 #include <talus/geometry/half_space.hpp>
+#include <talus/geometry/round_hole.hpp>
 
 namespace talus {
 
 /// Any shape of talus. For a list with shapes of one's own use AnyShapeOf.
 template <int Dim>
 using AnyShape = AnyShapeOf<Dim, Ball<Dim>, HalfSpace<Dim>, Capsule<Dim>, Box<Dim>,
-                            ConvexPolytope<Dim>, Compound<Dim>>;
+                            ConvexPolytope<Dim>, Compound<Dim>, RoundHole<Dim>>;
 
 static_assert(SolidShape<AnyShape<2>, 2> && SolidShape<AnyShape<3>, 3>);
 static_assert(sizeof(AnyShape<2>) <= 48 && sizeof(AnyShape<3>) <= 48,

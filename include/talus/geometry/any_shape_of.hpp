@@ -2,9 +2,12 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/number_record.hpp>
 #include <talus/geometry/convex_core.hpp>
 
 #include <concepts>
+#include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -75,6 +78,19 @@ class AnyShapeOf {
         double half = 0.0;
         detail::visit_held(held_, [&](const auto& s) { half = talus::half_thickness<Dim>(s); });
         return half;
+    }
+
+    /// Which of the list it is, and the shape itself.
+    void write(NumberRecord& out) const requires(Recordable<Shapes>&&...) {
+        out.integer(held_.index());
+        detail::visit_held(held_, [&](const auto& s) { s.write(out); });
+    }
+    static AnyShapeOf read(NumberRecordReader& in) requires(Recordable<Shapes>&&...) {
+        const auto kind = in.integer<std::size_t>(0, sizeof...(Shapes) - 1);
+        std::optional<AnyShapeOf> shape;
+        std::size_t k = 0;
+        ((k++ == kind ? void(shape.emplace(Shapes::read(in))) : void()), ...);
+        return *shape;
     }
 
   private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/number_record.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/geometry/convex_core.hpp>
 
@@ -46,6 +47,15 @@ class Ball {
         return {volume, centre_, moment * AngularMatrix<Dim>::Identity()};
     }
     Ball placed(const Pose<Dim>& pose) const { return Ball(radius_, pose.point_world(centre_)); }
+
+    void write(NumberRecord& out) const {
+        out.real(radius_);
+        out.array(centre_);
+    }
+    static Ball read(NumberRecordReader& in) {
+        const double radius = in.real();
+        return Ball(radius, in.array<Vector<Dim>>());
+    }
 
   private:
     Vector<Dim> centre_;

@@ -49,6 +49,19 @@ class Box {
         return result;
     }
 
+    void write(NumberRecord& out) const {
+        out.array(half_extents_);
+        core_->write(out);
+    }
+    static Box read(NumberRecordReader& in) {
+        Box result(in.array<Vector<Dim>>());
+        ConvexCore<Dim> core = ConvexCore<Dim>::read(in);
+        require_count("vertices of a box", core.view().vertices.size(), "corners",
+                      std::size_t{1} << Dim);
+        result.core_ = std::make_shared<const ConvexCore<Dim>>(std::move(core));
+        return result;
+    }
+
   private:
     /// Corner i lies on the positive side of axis k if bit k of i is set.
     static std::vector<Vector<Dim>> corners(const Vector<Dim>& h) {

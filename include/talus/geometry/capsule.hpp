@@ -50,6 +50,19 @@ class Capsule {
         return result;
     }
 
+    void write(NumberRecord& out) const {
+        out.real(half_length_);
+        core_->write(out);
+    }
+    static Capsule read(NumberRecordReader& in) {
+        const double half_length = in.real();
+        ConvexCore<Dim> core = ConvexCore<Dim>::read(in);
+        require_count("vertices of a capsule", core.view().vertices.size(), "ends", 2);
+        Capsule result(half_length, core.view().radius);
+        result.core_ = std::make_shared<const ConvexCore<Dim>>(std::move(core));
+        return result;
+    }
+
   private:
     static std::vector<Vector<Dim>> ends(double half_length) {
         return {-half_length * Vector<Dim>::Unit(0), half_length * Vector<Dim>::Unit(0)};

@@ -115,6 +115,25 @@ class CompoundOf {
         return result;
     }
 
+    void write(NumberRecord& out) const requires Recordable<Child> {
+        out.integer(children().size());
+        for (const Child& c : children()) c.write(out);
+        out.real(data_->mass.volume);
+        out.array(data_->mass.centroid);
+        out.array(data_->mass.inertia);
+        out.real(data_->half_thickness);
+    }
+    static CompoundOf read(NumberRecordReader& in) requires Recordable<Child> {
+        Data data;
+        const auto count = in.integer<std::size_t>(1, static_cast<std::int64_t>(max_child_count));
+        for (std::size_t k = 0; k < count; ++k) data.children.push_back(Child::read(in));
+        data.mass.volume = in.real();
+        data.mass.centroid = in.array<Vector<Dim>>();
+        data.mass.inertia = in.array<AngularMatrix<Dim>>();
+        data.half_thickness = in.real();
+        return CompoundOf(Made{}, share(std::move(data)));
+    }
+
   private:
     /// Immutable once shared, so that copies of a compound cost a pointer.
     struct Data {
@@ -124,6 +143,8 @@ class CompoundOf {
         double half_thickness = std::numeric_limits<double>::infinity();
     };
 
+    struct Made {};
+    CompoundOf(Made, std::shared_ptr<const Data>&& data) : data_(std::move(data)) {}
     static std::shared_ptr<const Data> share(Data&& data) {
         for (const Child& c : data.children) data.bounds.push_back(bounding_ball<Dim>(c));
         return std::make_shared<const Data>(std::move(data));

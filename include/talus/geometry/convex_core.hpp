@@ -3,6 +3,7 @@
 
 #include <talus/core/cross.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/number_record.hpp>
 #include <talus/geometry/aabb.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/spatial/pose.hpp>
@@ -103,7 +104,32 @@ class ConvexCore {
         return result;
     }
 
+    void write(NumberRecord& out) const {
+        const auto vectors = [&](const std::vector<Vector<Dim>>& list) {
+            out.integer(list.size());
+            for (const Vector<Dim>& x : list) out.array(x);
+        };
+        const auto indices = [&](const std::vector<std::uint32_t>& list) {
+            out.integer(list.size());
+            for (const std::uint32_t i : list) out.integer(i);
+        };
+        vectors(vertices_);
+        vectors(normals_);
+        indices(loop_begin_);
+        indices(loops_);
+        indices(loop_edges_);
+        out.integer(edges_.size());
+        for (const CoreEdge& e : edges_)
+            for (const std::uint32_t i : {e.tail, e.head, e.left, e.right}) out.integer(i);
+        out.real(radius_);
+        out.real(slack_);
+    }
+    static ConvexCore read(NumberRecordReader& in);
+
   private:
+    ConvexCore() = default;
+    void require_whole() const;
+
     /// Normal of a loop: exact direction of the side in 2D; in 3D the sum of the triangles'
     /// normals, which averages out the rounding of coplanar vertices.
     Vector<Dim> face_normal(const std::vector<std::uint32_t>& face) const {
@@ -169,10 +195,60 @@ class ConvexCore {
     std::vector<double> offsets_;
     std::vector<std::uint32_t> loop_begin_, loops_, loop_edges_;
     std::vector<CoreEdge> edges_;
-    double radius_, slack_;
-    Vector<Dim> centre_;
-    double bound_, inner_;
+    double radius_ = 0.0, slack_ = 0.0;
+    Vector<Dim> centre_ = Vector<Dim>::Zero();
+    double bound_ = 0.0, inner_ = 0.0;
 };
+
+template <int Dim>
+requires SpaceDimension<Dim> ConvexCore<Dim> ConvexCore<Dim>::read(NumberRecordReader& in) {
+    const auto vectors = [&](std::vector<Vector<Dim>>& list) {
+        list.resize(in.count(static_cast<std::size_t>(Dim), 0));
+        for (Vector<Dim>& x : list) x = require_finite("number of a core", in.array<Vector<Dim>>());
+    };
+    const auto indices = [&](std::vector<std::uint32_t>& list) {
+        list.resize(in.count(0, 1));
+        for (std::uint32_t& i : list) i = in.integer<std::uint32_t>(0, CoreEdge::none);
+    };
+    ConvexCore core;
+    vectors(core.vertices_);
+    vectors(core.normals_);
+    indices(core.loop_begin_);
+    indices(core.loops_);
+    indices(core.loop_edges_);
+    core.edges_.resize(in.count(0, 4));
+    for (CoreEdge& e : core.edges_)
+        for (std::uint32_t* i : {&e.tail, &e.head, &e.left, &e.right})
+            *i = in.integer<std::uint32_t>(0, CoreEdge::none);
+    core.radius_ = require_non_negative("radius of a core", in.real());
+    core.slack_ = require_non_negative("slack of a core", in.real());
+    core.require_whole();
+    core.measure();
+    return core;
+}
+
+/// Throws input_error where an index leads out of its list.
+template <int Dim>
+requires SpaceDimension<Dim>
+void ConvexCore<Dim>::require_whole() const {
+    const auto require = [](bool whole) {
+        if (!whole)
+            throw input_error("vertices, edges and faces of a core do not fit together, but must");
+    };
+    const auto below = [](const std::vector<std::uint32_t>& list, std::size_t count) {
+        return std::ranges::all_of(list, [count](std::uint32_t i) { return i < count; });
+    };
+    const std::size_t faces = normals_.size();
+    require(!vertices_.empty() && loop_begin_.size() == faces + 1 && loop_begin_.front() == 0 &&
+            loop_begin_.back() == loops_.size());
+    for (std::size_t f = 0; f < faces; ++f) require(loop_begin_[f] + 2 <= loop_begin_[f + 1]);
+    require(below(loops_, vertices_.size()) && below(loop_edges_, edges_.size()));
+    require(loop_edges_.size() == (Dim == 3 ? loops_.size() : 0));
+    for (const CoreEdge& e : edges_) {
+        require(e.tail < vertices_.size() && e.head < vertices_.size());
+        require(faces == 0 || (e.left < faces && e.right < faces));
+    }
+}
 
 /// A shape that is a rounded core: what the narrow phase treats by its vertices, edges and faces.
 template <class S, int Dim>

@@ -4,8 +4,8 @@
 #include <talus/core/cross.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/geometry/convex_core.hpp>
-#include <talus/geometry/convex_hull.hpp>
 #include <talus/geometry/core_mass.hpp>
+#include <talus/geometry/hull/convex_hull.hpp>
 
 #include <cmath>
 #include <memory>
@@ -152,7 +152,17 @@ class ConvexPolytope {
         return result;
     }
 
+    void write(NumberRecord& out) const { core_->write(out); }
+    static ConvexPolytope read(NumberRecordReader& in) {
+        ConvexCore<Dim> core = ConvexCore<Dim>::read(in);
+        require_in("face count of a polytope", static_cast<double>(core.view().face_count()),
+                   Dim + 1.0, static_cast<double>(max_feature_count));
+        return ConvexPolytope(std::move(core));
+    }
+
   private:
+    explicit ConvexPolytope(ConvexCore<Dim>&& core)
+        : core_(std::make_shared<const ConvexCore<Dim>>(std::move(core))) {}
     friend struct HullOfPoints<Dim>;
     ConvexPolytope(const ConvexHull& hull, std::vector<Vector<Dim>>&& vertices)
         : core_(std::make_shared<const ConvexCore<Dim>>(std::move(vertices), hull.faces, 0.0,

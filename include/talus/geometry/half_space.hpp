@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/number_record.hpp>
 #include <talus/geometry/concepts.hpp>
 
 namespace talus {
@@ -40,6 +41,17 @@ class HalfSpace {
         HalfSpace s = *this;
         s.normal_ = pose.rotation * normal_;
         s.offset_ = offset_ + s.normal_.dot(pose.position);
+        return s;
+    }
+
+    void write(NumberRecord& out) const {
+        out.array(normal_);
+        out.real(offset_);
+    }
+    static HalfSpace read(NumberRecordReader& in) {
+        const auto normal = in.array<Vector<Dim>>();
+        HalfSpace s(normal, in.real());
+        s.normal_ = normal;  // to the last bit, which normalising may change
         return s;
     }
 

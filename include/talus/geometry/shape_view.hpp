@@ -5,6 +5,7 @@
 #include <talus/geometry/ball.hpp>
 #include <talus/geometry/compound.hpp>
 #include <talus/geometry/half_space.hpp>
+#include <talus/geometry/round_hole.hpp>
 
 #include <concepts>
 #include <cstdint>
@@ -18,6 +19,7 @@ enum class ShapeKind : std::uint8_t {
     ball,        ///< is a Ball, of which closed forms are known
     core,        ///< has core(): vertices, edges and faces
     half_space,  ///< is a HalfSpace
+    hole,        ///< is a RoundHole
     convex,      ///< has support() and nothing better
     compound,    ///< has children, each to be asked by itself
     stranger     ///< none of these: can meet by a routine of its own alone
@@ -26,6 +28,7 @@ enum class ShapeKind : std::uint8_t {
 template <class S, int Dim>
 inline constexpr ShapeKind kind_of = std::same_as<S, Ball<Dim>>        ? ShapeKind::ball
                                      : std::same_as<S, HalfSpace<Dim>> ? ShapeKind::half_space
+                                     : std::same_as<S, RoundHole<Dim>> ? ShapeKind::hole
                                      : is_compound<S>                  ? ShapeKind::compound
                                      : CoreShape<S, Dim>               ? ShapeKind::core
                                      : ConvexShape<S, Dim>             ? ShapeKind::convex
@@ -56,6 +59,8 @@ struct ShapeView {
     const ShapeAccess<Dim>* access;
 
     ShapeKind kind() const { return access->kind; }
+    /// Whether it is a wall: without an end, and met by vertices alone.
+    bool is_wall() const { return kind() == ShapeKind::half_space || kind() == ShapeKind::hole; }
     bool has_core() const { return kind() == ShapeKind::ball || kind() == ShapeKind::core; }
     /// The shape itself, of which the caller knows the type from the kind.
     template <class S>

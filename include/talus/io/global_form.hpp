@@ -66,6 +66,10 @@ struct BodyRows {
 template <int Dim>
 BodyRows body_rows(const InverseMass<Dim>& m) {
     BodyRows rows;
+    for (std::size_t k = 0; k < m.free_axes.size(); ++k)
+        if (m.free_axes[k] != Vector<Dim>::Ones())
+            throw input_error(numbered("body", k) +
+                              " has locked axes, but bodies of a problem file must have none");
     for (std::size_t k = 0; k < m.body_count(); ++k) {
         const bool translates = m.linear[k] != 0.0, rotates = !m.angular[k].isZero(0.0);
         rows.linear.push_back(translates ? rows.count : -1);

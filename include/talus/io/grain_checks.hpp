@@ -3,7 +3,7 @@
 
 #include <talus/core/input.hpp>
 #include <talus/geometry/convex_polytope.hpp>
-#include <talus/geometry/coordinate_rounding.hpp>
+#include <talus/geometry/hull/coordinate_rounding.hpp>
 #include <talus/sample/polygon.hpp>
 #include <talus/sample/polyhedron.hpp>
 #include <talus/sample/scene.hpp>

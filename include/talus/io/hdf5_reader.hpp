@@ -20,8 +20,10 @@ namespace talus::detail {
 /// allocated for a dataset before its length is found right.
 class Hdf5Reader {
   public:
-    explicit Hdf5Reader(const std::filesystem::path& path)
-        : path_(path.string()), file_(open(path)) {}
+    /// `what` it must be, for complaints.
+    explicit Hdf5Reader(const std::filesystem::path& path,
+                        const std::string& what = "a problem file")
+        : path_(path.string()), file_(open(path, what)) {}
 
     /// Throws the complaint about `name`: `what` goes on after it, "is 4, but must be 2 or 3".
     [[noreturn]] void fail(const std::string& name, const std::string& what) const {
@@ -63,9 +65,13 @@ class Hdf5Reader {
         return read<std::int64_t>(name, H5T_INTEGER, H5T_NATIVE_INT64, length);
     }
 
+    /// The numbers of a dataset, finite or not.
+    std::vector<double> any_numbers(const std::string& name, std::size_t length) const {
+        return read<double>(name, H5T_FLOAT, H5T_NATIVE_DOUBLE, length);
+    }
     /// The finite numbers of a dataset.
     std::vector<double> numbers(const std::string& name, std::size_t length) const {
-        auto values = read<double>(name, H5T_FLOAT, H5T_NATIVE_DOUBLE, length);
+        auto values = any_numbers(name, length);
         for (std::size_t k = 0; k < length; ++k)
             if (!std::isfinite(values[k]))
                 fail(name + "[" + std::to_string(k) + "]",
@@ -99,16 +105,14 @@ class Hdf5Reader {
     }
 
   private:
-    static Hdf5Handle open(const std::filesystem::path& path) {
+    static Hdf5Handle open(const std::filesystem::path& path, const std::string& what) {
         std::error_code error;
         if (!std::filesystem::is_regular_file(path, error))
-            throw input_error(path.string() +
-                              ": the file cannot be read, but must be a problem "
-                              "file");
+            throw input_error(path.string() + ": the file cannot be read, but must be " + what);
         Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose);
         if (!file.valid())
-            throw input_error(path.string() +
-                              ": the file is no whole HDF5 file, but must be a problem file");
+            throw input_error(path.string() + ": the file is no whole HDF5 file, but must be " +
+                              what);
         return file;
     }
 

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
@@ -33,6 +34,14 @@ class Hdf5Writer {
             if (!std::isfinite(values[k]))
                 throw input_error(path_.string() + ": " + name + "[" + std::to_string(k) + "] is " +
                                   text_of(values[k]) + ", but must be finite");
+        any_numbers(name, values);
+    }
+
+    void long_integers(const std::string& name, std::span<const std::int64_t> values) {
+        put(name, H5T_STD_I64LE, H5T_NATIVE_INT64, list(values.size()), values.data());
+    }
+    /// Finite or not.
+    void any_numbers(const std::string& name, std::span<const double> values) {
         put(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, list(values.size()), values.data());
     }
 

@@ -4,7 +4,11 @@
 #include <talus/core/input.hpp>
 #include <talus/io/drawing_scales.hpp>
 
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -21,6 +25,9 @@ struct DrawnGrain {
 struct PileDrawing {
     double box_width = 0.0;  ///< walls at x = 0 and here, floor at y = 0 [m]
     std::vector<DrawnGrain> grains = {};
+    std::vector<DrawnGrain> obstacles = {};  ///< dark, whatever their load
+    /// Shows what lies between two corners [m], without the box. What reaches out of them is cut.
+    std::optional<std::pair<Vector<2>, Vector<2>>> window = {};
     std::vector<DrawnContact<2>> contacts = {};
     std::string title = {};
     std::vector<std::string> captions = {};  ///< lines under the picture
@@ -35,7 +42,13 @@ inline double mean_diameter(const std::vector<DrawnGrain>& grains) {
 }
 
 inline void require_drawable(const PileDrawing& pile) {
-    require_positive("width of the drawn box [m]", pile.box_width);
+    if (pile.window) {
+        const auto& [low, high] = *pile.window;
+        require_finite("low corner of the window", low);
+        require_positive("extent of the window [m]", (high - low).minCoeff());
+    } else {
+        require_positive("width of the drawn box [m]", pile.box_width);
+    }
     require_in("drawn grains", static_cast<double>(pile.grains.size()), 1.0, 1e7);
     for (std::size_t i = 0; i < pile.grains.size(); ++i) {
         const DrawnGrain& g = pile.grains[i];
@@ -60,6 +73,17 @@ inline void draw_grains(Svg& svg, const PileDrawing& pile, const GreyScale& grey
     svg.close_group();
 }
 
+inline void draw_obstacles(Svg& svg, const PileDrawing& pile) {
+    svg.open_group({.fill = "#2b2b2b"});
+    for (const auto& o : pile.obstacles) {
+        if (o.outline.empty())
+            svg.circle(o.centre, o.radius);
+        else
+            svg.polygon(o.outline);
+    }
+    svg.close_group();
+}
+
 inline void draw_chains(Svg& svg, const PileDrawing& pile, const WidthScale& widths) {
     svg.open_group({.fill = "none", .stroke = chain_colour, .opacity = 0.92, .round = true});
     for (const std::size_t i : by_force<2>(pile.contacts)) {
@@ -79,39 +103,47 @@ inline void draw_chains(Svg& svg, const PileDrawing& pile, const WidthScale& wid
 /// below. Throws input_error naming what is not finite.
 inline std::string pile_svg(const PileDrawing& pile, const DrawingParams& params = {}) {
     detail::require_drawable(pile);
-    double top = 0.0;
+    // What is shown lies between these, the box's floor and walls included.
+    Vector<2> low = Vector<2>::Zero(), high(pile.box_width, 0.0);
     std::vector<double> loads;
     for (const auto& g : pile.grains) {
-        top = std::max(top, g.centre[1] + g.radius);
+        high[1] = std::max(high[1], g.centre[1] + g.radius);
         loads.push_back(g.load);
     }
+    if (pile.window) std::tie(low, high) = *pile.window;
     const double diameter = detail::mean_diameter(pile.grains);
     // Words are sized by the page, which is about as wide as the box and the scales together.
-    const double em = 0.021 * std::max(pile.box_width, top);
-    const double wall = 0.45 * em, right = pile.box_width + 14.0 * em;
+    const double em = 0.021 * (high - low).maxCoeff();
+    const double wall = pile.window ? 0.0 : 0.45 * em, right = high[0] + 14.0 * em;
     const double title_room = 4.5 * em;
     const double caption_room = (2.2 + 1.5 * static_cast<double>(pile.captions.size())) * em;
     const double legend_height = 22.0 * em;
-    const double roof = std::max(top + em, legend_height);
-    Svg svg({-2.0 * em, -caption_room - wall}, {right, roof + title_room}, params.width_pixels);
+    const double roof = std::max(high[1] + em, low[1] + legend_height);
+    Svg svg({low[0] - 2.0 * em, low[1] - caption_room - wall}, {right, roof + title_room},
+            params.width_pixels);
 
     const detail::GreyScale grey{detail::quantile(loads, params.full_share), params.darkest,
                                  params.lightest};
     const detail::WidthScale widths{detail::strongest_force<2>(pile.contacts),
                                     params.strongest_width * diameter};
+    if (pile.window) svg.open_clipped(low, high);
+    detail::draw_obstacles(svg, pile);
     detail::draw_grains(svg, pile, grey, 0.035 * diameter);
     detail::draw_chains(svg, pile, widths);
+    if (pile.window) {
+        svg.close_group();
+    } else {
+        const double w = 0.5 * wall, wall_top = high[1] + em;
+        const std::vector<Vector<2>> box{
+            {-w, wall_top}, {-w, -w}, {pile.box_width + w, -w}, {pile.box_width + w, wall_top}};
+        svg.polyline(box, {.fill = "none", .stroke = "#1a1a1a", .stroke_width = wall});
+    }
 
-    const double w = 0.5 * wall, wall_top = top + em;
-    const std::vector<Vector<2>> box{
-        {-w, wall_top}, {-w, -w}, {pile.box_width + w, -w}, {pile.box_width + w, wall_top}};
-    svg.polyline(box, {.fill = "none", .stroke = "#1a1a1a", .stroke_width = wall});
-
-    const double column = pile.box_width + 3.0 * em;
-    detail::draw_width_key(svg, {column, 10.0 * em}, em, widths, params);
-    detail::draw_grey_key(svg, {column, 12.5 * em}, 7.0 * em, em, grey, params);
-    detail::draw_words(svg, {-w, roof + 1.8 * em}, {-w, -wall - 1.8 * em}, em, pile.title,
-                       pile.captions);
+    const double column = high[0] + 3.0 * em, w = 0.5 * wall;
+    detail::draw_width_key(svg, {column, low[1] + 10.0 * em}, em, widths, params);
+    detail::draw_grey_key(svg, {column, low[1] + 12.5 * em}, 7.0 * em, em, grey, params);
+    detail::draw_words(svg, {low[0] - w, roof + 1.8 * em}, {low[0] - w, low[1] - wall - 1.8 * em},
+                       em, pile.title, pile.captions);
     return svg.str();
 }
 

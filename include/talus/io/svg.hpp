@@ -98,6 +98,15 @@ class Svg {
         body_ += ">\n";
         ++open_groups_;
     }
+    /// Opens a group of which only what lies between two corners [m] is shown.
+    void open_clipped(const Vector<2>& low, const Vector<2>& high) {
+        const std::string name = "clip" + std::to_string(++clips_);
+        definitions_ += "<clipPath id=\"" + name + "\"><rect x=\"" + number(x(low)) + "\" y=\"" +
+                        number(y(high)) + "\" width=\"" + number(scale_ * (high[0] - low[0])) +
+                        "\" height=\"" + number(scale_ * (high[1] - low[1])) + "\"/></clipPath>\n";
+        body_ += "<g clip-path=\"url(#" + name + ")\">\n";
+        ++open_groups_;
+    }
     void close_group() {
         TALUS_CHECK(open_groups_ > 0, "a group is open");
         body_ += "</g>\n";
@@ -191,7 +200,7 @@ class Svg {
 
     Vector<2> low_, high_;
     double scale_;  ///< [pixel/m]
-    int open_groups_ = 0;
+    int open_groups_ = 0, clips_ = 0;
     std::string definitions_, body_;
 };
 

@@ -159,17 +159,18 @@ void BodyMap<Dim>::assign(const ContactJacobian<Dim>& jacobian,
     std::vector<Eigen::Matrix<double, Eigen::Dynamic, twist_dof<Dim>>> root;
     for (std::size_t k = 0; k < index.size(); ++k) {
         const SymmetricEigen<turns> spin(inverse_mass.angular[k]);
-        const bool moves = inverse_mass.linear[k] > 0.0;
+        const Vector<Dim> along = inverse_mass.translation(k);
         const double largest = spin.values.maxCoeff();
-        int rows = moves ? Dim : 0;
+        int translations = 0;
+        for (int d = 0; d < Dim; ++d) translations += along[d] > 0.0;
+        int rows = translations;
         for (int d = 0; d < turns; ++d) rows += spin.values[d] > 1e-15 * largest;
         if (rows == 0) continue;
         Eigen::Matrix<double, Eigen::Dynamic, twist_dof<Dim>> c(rows, twist_dof<Dim>);
         c.setZero();
-        if (moves)
-            c.template topLeftCorner<Dim, Dim>().diagonal().setConstant(
-                std::sqrt(inverse_mass.linear[k]));
-        for (int d = 0, row = moves ? Dim : 0; d < turns; ++d)
+        for (int d = 0, row = 0; d < Dim; ++d)
+            if (along[d] > 0.0) c(row++, d) = std::sqrt(along[d]);
+        for (int d = 0, row = translations; d < turns; ++d)
             if (spin.values[d] > 1e-15 * largest)
                 c.row(row++).template tail<turns>() =
                     std::sqrt(spin.values[d]) * spin.vectors.col(d).transpose();

@@ -56,11 +56,19 @@ requires SpaceDimension<Dim>
 struct InverseMass {
     std::vector<double> linear;               ///< 1/m [1/kg]
     std::vector<AngularMatrix<Dim>> angular;  ///< inverse inertia tensor, world [1/(kg m^2)]
+    /// Of each body 1 along the axes of the world along which it moves, 0 along those that are
+    /// locked. Empty where none has locked ones.
+    std::vector<Vector<Dim>> free_axes;
 
     std::size_t body_count() const { return linear.size(); }
+    /// M^-1 of body k for translations, axis by axis [1/kg].
+    Vector<Dim> translation(std::size_t k) const {
+        return linear[k] * (free_axes.empty() ? Vector<Dim>::Ones() : free_axes[k]);
+    }
     void resize(std::size_t n) {
         linear.resize(n);
         angular.resize(n);
+        if (!free_axes.empty()) free_axes.resize(n);
     }
 };
 

@@ -64,7 +64,10 @@ class DelassusProduct {
         jacobian_ = &jacobian;
         bodies_.resize(inverse_mass.body_count());
         for (std::size_t k = 0; k < bodies_.size(); ++k) {
-            bodies_[k].inverse_mass = inverse_mass.linear[k];
+            if constexpr (std::same_as<Mobility, double>)
+                bodies_[k].inverse_mass = inverse_mass.linear[k];
+            else
+                bodies_[k].inverse_mass = inverse_mass.translation(k);
             if constexpr (std::same_as<Inertia, double>)
                 bodies_[k].inverse_inertia = inverse_mass.angular[k](0, 0);
             else
@@ -85,8 +88,9 @@ class DelassusProduct {
         for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
             const Body& x = bodies_[static_cast<std::size_t>(body)];
             const SmallMatrix<rotation_dof<Dim>, Dim> lever = moment_matrix<Dim>(arm);
-            world += x.inverse_mass * Matrix<Dim>::Identity() +
-                     lever.transpose() * (x.inverse_inertia * lever);
+            Matrix<Dim> mobility = Matrix<Dim>::Zero();
+            for (int d = 0; d < Dim; ++d) mobility(d, d) = along(x, d);
+            world += mobility + lever.transpose() * (x.inverse_inertia * lever);
         }
         const Matrix<Dim> w = c.frame * world * c.frame.transpose();
         return 0.5 * (w + w.transpose());
@@ -108,10 +112,12 @@ class DelassusProduct {
     void islands(std::span<std::uint32_t> label) const {
         const auto free = [&](BodyIndex k) {
             const Body& x = bodies_[static_cast<std::size_t>(k)];
+            bool moves = false;
+            for (int d = 0; d < Dim; ++d) moves = moves || along(x, d) > 0.0;
             if constexpr (std::same_as<Inertia, double>)
-                return x.inverse_mass > 0.0 || x.inverse_inertia > 0.0;
+                return moves || x.inverse_inertia > 0.0;
             else
-                return x.inverse_mass > 0.0 || !x.inverse_inertia.is_zero();
+                return moves || !x.inverse_inertia.is_zero();
         };
         islands_.reset(bodies_.size());
         for (std::size_t i = 0; i < contact_count(); ++i)
@@ -151,12 +157,21 @@ class DelassusProduct {
         const ContactJacobian<Dim>& j = *jacobian_;
         return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i]};
     }
+    /// Axes are locked in the plane, where there is room for it, and beside tensors.
+    using Mobility = std::conditional_t<std::same_as<Inertia, double> && rotation_dof<Dim> != 1,
+                                        double, Vector<Dim>>;
     struct Body {
         Vector<Dim> linear;
         AngularVector<Dim> angular;
-        double inverse_mass;
+        Mobility inverse_mass;
         Inertia inverse_inertia;
     };
+    static double along(const Body& x, int d) {
+        if constexpr (std::same_as<Mobility, double>)
+            return x.inverse_mass;
+        else
+            return x.inverse_mass[d];
+    }
 
     static Vector<Dim> velocity(const Row& c, const std::vector<Body>& bodies) {
         const Body& a = bodies[static_cast<std::size_t>(c.a)];
@@ -192,10 +207,9 @@ class DelassusProduct {
         }
     }
     static void push(Body& x, double sign, const Vector<Dim>& impulse, const Vector<Dim>& arm) {
-        const double mobility = sign * x.inverse_mass;
         const AngularVector<Dim> turn = moment<Dim>(arm, impulse);
         for (int d = 0; d < Dim; ++d)
-            x.linear[d] = detail::unpaired(x.linear[d] + mobility * impulse[d]);
+            x.linear[d] = detail::unpaired(x.linear[d] + (sign * along(x, d)) * impulse[d]);
         for (int d = 0; d < rotation_dof<Dim>; ++d)
             x.angular[d] = detail::unpaired(x.angular[d] + sign * turned(x, turn, d));
     }
@@ -227,7 +241,7 @@ class RigidBodyOperators {
     decltype(auto) with(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
                         F&& f) {
         if constexpr (rotation_dof<Dim> != 1) {
-            if (!has_scalar_inertia(inverse_mass)) {
+            if (!inverse_mass.free_axes.empty() || !has_scalar_inertia(inverse_mass)) {
                 tensor_.assign(jacobian, inverse_mass);
                 return f(tensor_);
             }

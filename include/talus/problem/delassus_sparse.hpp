@@ -144,7 +144,7 @@ void DelassusSparse<Rows>::assemble(const ContactJacobian<Dim>& jacobian,
         if (inverse_mass.linear[k] == 0.0 && inverse_mass.angular[k].is_zero()) continue;
         Eigen::Matrix<double, twist_dof<Dim>, twist_dof<Dim>> mobility;
         mobility.setZero();
-        mobility.template topLeftCorner<Dim, Dim>().diagonal().setConstant(inverse_mass.linear[k]);
+        for (int d = 0; d < Dim; ++d) mobility(d, d) = inverse_mass.translation(k)[d];
         mobility.template bottomRightCorner<rotation_dof<Dim>, rotation_dof<Dim>>() =
             inverse_mass.angular[k];
         const auto body = static_cast<BodyIndex>(k);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <talus/core/types.hpp>
-#include <talus/geometry/convex_hull.hpp>
+#include <talus/geometry/hull/convex_hull.hpp>
 
 #include <span>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/number_record.hpp>
 #include <talus/core/types.hpp>
 
 #include <Eigen/Geometry>
@@ -53,6 +54,15 @@ class Rotation<2> {
     Rotation normalized() const {
         const double n = std::sqrt(c_ * c_ + s_ * s_);
         return Rotation(c_ / n, s_ / n);
+    }
+
+    void write(NumberRecord& out) const {
+        out.real(c_);
+        out.real(s_);
+    }
+    static Rotation read(NumberRecordReader& in) {
+        const double c = in.real();
+        return Rotation(c, in.real());
     }
 
   private:
@@ -121,6 +131,13 @@ class Rotation<3> {
                                   (axis() + o.axis()).squaredNorm() + (q_.w() + w) * (q_.w() + w)));
     }
     Rotation normalized() const { return Rotation(q_); }
+
+    void write(NumberRecord& out) const { out.array(q_.coeffs()); }
+    static Rotation read(NumberRecordReader& in) {
+        Rotation r;
+        for (int k = 0; k < 4; ++k) r.q_.coeffs()[k] = in.real();
+        return r;
+    }
 
   private:
     /// The vector part of the quaternion: along the axis, of length sin(angle / 2).

@@ -177,7 +177,7 @@ EquilibriumReport<Dim, Law> one_step(System<Dim, Law, ShapeType> system, const S
                                      const ImpulseCache<Dim>& start, const Hooks& hooks) {
     MoreauMidpoint<Dim, Law, ShapeType, HierarchicalGrid<Dim>, Hooks> integrator;
     integrator.hooks() = hooks;
-    integrator.impulse_cache() = start;
+    integrator.warm_start().impulses() = start;
     EquilibriumReport<Dim, Law> report;
     integrator.step(system, system.time(), params.h, step, solver, report.data);
     const StepData<Dim, Law>& data = report.data;

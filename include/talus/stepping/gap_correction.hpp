@@ -72,6 +72,9 @@ class GapCorrection {
     /// Dissipated energy not yet spent on lifting [J].
     double budget() const { return budget_; }
 
+    void write(NumberRecord& out) const { out.real(budget_); }
+    void restore(NumberRecordReader& in) { budget_ = in.real(); }
+
   private:
     template <class Law>
     static double dissipated(const StepData<Dim, Law>& data) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <talus/assembly/apply_impulses.hpp>
+#include <talus/assembly/can_part.hpp>
 #include <talus/assembly/contact_detection.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
 #include <talus/assembly/contact_velocities.hpp>
 #include <talus/assembly/free_velocity.hpp>
-#include <talus/assembly/impulse_cache.hpp>
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
@@ -18,6 +18,7 @@
 #include <talus/stepping/step_hooks.hpp>
 #include <talus/stepping/step_params.hpp>
 #include <talus/stepping/system.hpp>
+#include <talus/stepping/warm_start.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -82,12 +83,9 @@ class MoreauMidpoint {
     /// Called between the stages (step_hooks.hpp).
     Hooks& hooks() { return hooks_; }
 
-    /// Impulses remembered for the warm start.
-    ImpulseCache<Dim>& impulse_cache() { return cache_; }
-    const ImpulseCache<Dim>& impulse_cache() const { return cache_; }
-    /// Follows the bodies that were removed since the last step: they are forgotten, the others
-    /// found again by their ids. A step does so by itself. O(bodies + contacts).
-    void follow(const Bodies<Dim>& bodies);
+    /// What the next step begins with. (Each step first follows the bodies that were removed.)
+    WarmStart<Dim>& warm_start() { return warm_start_; }
+    const WarmStart<Dim>& warm_start() const { return warm_start_; }
 
   private:
     void pose(SystemType& system, double t_begin, double h, const StepParams& params, Data& data);
@@ -102,14 +100,13 @@ class MoreauMidpoint {
     static void finish(SystemType& system, Data& data);
 
     ContactDetection<Dim, ShapeType, Broad> detection_;
-    ImpulseCache<Dim> cache_, other_cache_;  // the other one: of the step under way, or before it
+    WarmStart<Dim> warm_start_;
     KeptState<Dim> before_;
     bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
-    std::vector<BodyId> remembered_;      // bodies that the cache numbers
     std::vector<double> fall_, reach_;    // by body
     std::vector<Twist<Dim>> motion_;      // over one step; empty where nothing is anticipated
     std::vector<Twist<Dim>> excess_;      // shape less surface, by body
-    double last_h_ = 0.0, h_before_ = 0.0, time_before_ = 0.0;
+    double time_before_ = 0.0;
     [[no_unique_address]] Hooks hooks_;
 };
 
@@ -138,7 +135,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     require_shapes(system);
     system.require_obstacles_in_place();
     system.require_masses();
-    follow(system.bodies);
+    warm_start_.follow(system.bodies);
     before_.keep(system.bodies);
     time_before_ = system.time();
     kept_ = true;
@@ -155,9 +152,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     hooks_.matrices_known(system, data);
     hooks_.forces_known(system, data);
     assemble_contacts(system, params, data);
-    data.impulse.resize(data.contact_count());
-    data.recalled = cache_.recall(data.contacts, data.problem.jacobian, data.impulse,
-                                  last_h_ > 0.0 ? data.h / last_h_ : 1.0);
+    warm_start_.recall(data);
     hooks_.problem_known(system, data);
 }
 
@@ -166,18 +161,15 @@ TALUS_OF_STEP::complete(SystemType& system, Data& data) {
     // the next solve would take its loads for what such impulses have left of zero. (Those of a jam
     // are as large, and solve it.)
     constexpr double out_of_proportion = 1e-7;
-    if (data.report.status == SolveStatus::converged || !(data.report.rounding > out_of_proportion))
-        other_cache_.store(data.contacts, data.problem.jacobian, data.impulse);
-    else
-        other_cache_.clear();
+    warm_start_.store(data, data.report.status == SolveStatus::converged ||
+                                !(data.report.rounding > out_of_proportion));
     hooks_.solved(system, data);
     data.end = data.free;
     apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
     hooks_.velocities_known(system, data);
     finish(system, data);
     hooks_.finished(system, data);
-    std::swap(cache_, other_cache_);
-    h_before_ = std::exchange(last_h_, data.h);
+    warm_start_.keep(data.h);
     stored_ = true;
     system.end_step();
 }
@@ -187,29 +179,9 @@ TALUS_OF_STEP::undo(SystemType& system) noexcept {
         before_.restore(system.bodies);
         system.set_time(time_before_);
     }
-    if (stored_) {
-        std::swap(cache_, other_cache_);
-        last_h_ = h_before_;
-    }
+    if (stored_) warm_start_.undo();
     kept_ = stored_ = false;
     system.end_step();
-}
-
-TALUS_OF_STEP::follow(const Bodies<Dim>& bodies) {
-    // Ids ascend: whoever was remembered is where it was unless somebody before it has gone.
-    const auto& ids = bodies.id;
-    const bool same = remembered_.size() <= ids.size() &&
-                      std::equal(remembered_.begin(), remembered_.end(), ids.begin());
-    remembered_.reserve(ids.size());  // what may throw comes first
-    if (!same) {
-        std::vector<BodyIndex> to(remembered_.size(), -1);
-        for (std::size_t i = 0, j = 0; i < remembered_.size(); ++i) {
-            while (j < ids.size() && ids[j] < remembered_[i]) ++j;
-            if (j < ids.size() && ids[j] == remembered_[i]) to[i] = static_cast<BodyIndex>(j);
-        }
-        cache_.renumber(to);
-    }
-    remembered_.assign(ids.begin(), ids.end());
 }
 
 TALUS_OF_STEP::require_shapes(const SystemType& system) {
@@ -265,7 +237,7 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
         }
         // Shapes whose surfaces move otherwise: the shape of a belt stands still.
         for (const auto& [body, motion] : system.obstacles) {
-            if (!motion.surface_moves) continue;
+            if (!motion.surface_moves()) continue;
             const auto i = static_cast<std::size_t>(body);
             motion_[i] = motion.displacement(data.t_begin, data.t_end());
             const double radius = system.bounding_radius()[i], turn = motion_[i].angular.norm();
@@ -275,8 +247,9 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
     }
     detection_.detect(system.bodies, system.shapes(), system.shapes_version(),
                       system.bounding_radius(), params.skin * system.mean_bounding_radius(), reach_,
-                      motion_, touching, data.contacts);
+                      motion_, touching, system.ignored, data.contacts);
     data.contacts.keep_if([&](std::size_t c) {
+        if (!can_part(data.contacts, c, system.bodies)) return false;
         const ContactKey& key = data.contacts.key[c];
         const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
         return data.contacts.gap[c] <= closed_gap(params, std::min(thickness(a), thickness(b)),
@@ -289,7 +262,7 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
 TALUS_OF_STEP::hold_moving_surfaces(const SystemType& system, Data& data) {
     excess_.clear();
     for (const auto& [body, motion] : system.obstacles) {
-        if (!motion.surface_moves) continue;
+        if (!motion.surface_moves()) continue;
         if (excess_.empty()) excess_.assign(system.bodies.count(), Twist<Dim>{});
         const auto i = static_cast<std::size_t>(body);
         const Twist<Dim> way = motion.displacement(data.t_begin, data.t_end());

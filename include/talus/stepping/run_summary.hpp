@@ -3,6 +3,7 @@
 
 #include <talus/collision/contact_set.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/number_record.hpp>
 #include <talus/stepping/step_data.hpp>
 #include <talus/stepping/system.hpp>
 
@@ -81,6 +82,34 @@ struct RunSummary {
                 std::min(half[static_cast<std::size_t>(a)], half[static_cast<std::size_t>(b)]);
             note(overlap, -data.contacts.gap[k] / thinner, data, k);
         }
+    }
+
+    /// To be carried through a checkpoint.
+    void write(NumberRecord& out) const {
+        for (const std::int64_t k : {steps, missed, short_of_aim, turned_too_far}) out.integer(k);
+        out.integer(stopped);
+        out.real(drift);
+        for (const Worst* worst : {&residual, &contact_error, &velocity_error, &overlap, &travel}) {
+            out.real(worst->value);
+            out.real(worst->time);
+            out.integer(worst->a);
+            out.integer(worst->b);
+        }
+    }
+    static RunSummary read(NumberRecordReader& in) {
+        RunSummary run;
+        for (std::int64_t* k : {&run.steps, &run.missed, &run.short_of_aim, &run.turned_too_far})
+            *k = in.integer(0);
+        run.stopped = in.integer(0, 1) == 1;
+        run.drift = in.real();
+        for (Worst* worst :
+             {&run.residual, &run.contact_error, &run.velocity_error, &run.overlap, &run.travel}) {
+            worst->value = in.real();
+            worst->time = in.real();
+            worst->a = in.integer<BodyIndex>();
+            worst->b = in.integer<BodyIndex>();
+        }
+        return run;
     }
 
   private:

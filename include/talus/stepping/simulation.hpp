@@ -92,6 +92,14 @@ class Simulation {
         return summary;
     }
 
+    /// All that the next step depends on apart from laws, forces, settings and solver: to go back
+    /// to, to try from, or to write down (io/checkpoint).
+    RunState<Dim, ShapeType> state() const;
+    /// Puts a state in place of what there is; the run that follows makes the same bits as the one
+    /// that the state was taken from. Throws input_error, and changes nothing, if it is of another
+    /// step size or does not fit together. `data()` is then of no step.
+    void restore(const RunState<Dim, ShapeType>& state);
+
     double time() const { return time_; }  ///< [s]
     std::int64_t step_count() const { return step_count_; }
     const SimulationParams& params() const { return params_; }
@@ -102,8 +110,8 @@ class Simulation {
     const Data& data() const { return data_; }  ///< of the last step
     /// Impulses remembered for the warm start; clear it to make the next step start cold.
     ImpulseCache<Dim>& impulse_cache() {
-        integrator_.follow(system_.bodies);
-        return integrator_.impulse_cache();
+        integrator_.warm_start().follow(system_.bodies);
+        return integrator_.warm_start().impulses();
     }
     /// Called between the stages of a step (step_hooks.hpp).
     Hooks& hooks() { return integrator_.hooks(); }
@@ -150,6 +158,43 @@ auto Simulation<Dim, Types>::step() -> const Data& {
     ++step_count_;
     time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
     return data_;
+}
+
+template <int Dim, class Types>
+requires SpaceDimension<Dim>
+auto Simulation<Dim, Types>::state() const -> RunState<Dim, ShapeType> {
+    RunState<Dim, ShapeType> state;
+    system_.write_to(state);
+    integrator_.warm_start().write_to(state);
+    state.h = params_.h;
+    state.time_start = time_start_;
+    state.step_count = step_count_;
+    gap_correction_.write(state.correction);
+    return state;
+}
+
+template <int Dim, class Types>
+requires SpaceDimension<Dim>
+void Simulation<Dim, Types>::restore(const RunState<Dim, ShapeType>& state) {
+    if (state.h != params_.h)
+        detail::reject("step size h of the state", state.h,
+                       "that of the simulation, " + detail::text_of(params_.h));
+    require_non_negative("steps of the state", static_cast<double>(state.step_count));
+    if (!std::isfinite(state.time_start))
+        detail::reject("begin of the state", state.time_start, "finite");
+    SystemType system = system_;
+    system.restore(state);
+    Correction correction = gap_correction_;
+    NumberRecordReader remembered(state.correction);
+    correction.restore(remembered);
+    remembered.require_end();
+    integrator_.warm_start().restore(state);
+    system_ = std::move(system);
+    gap_correction_ = std::move(correction);
+    data_ = Data();
+    time_start_ = state.time_start;
+    step_count_ = state.step_count;
+    time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
 }
 
 }  // namespace talus

@@ -4,6 +4,7 @@
 #include <talus/dynamics/forces.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace talus {
@@ -42,9 +43,11 @@ struct StepParams {
 /// close, so that errors of the solver do not add up until it opens. In the midpoint scheme what
 /// counts as closed by a contact tolerance is held as it is, the paper's way, and so is everything
 /// without `gaps_may_close`. Pins (`holds_any_pull`) are always held as they are: what a law
-/// without limit may close, it would.
+/// without limit may close, it would. A body without a thickness (a half-space that is free to
+/// move) sets no limits of its own.
 inline double closed_gap(const StepParams& params, double half_thickness, double fall) {
     constexpr double of_fall = 0.01, least = 1e-5, most = 1e-3;
+    if (!std::isfinite(half_thickness)) return params.contact_tolerance.value_or(of_fall * fall);
     return params.contact_tolerance.value_or(
         std::clamp(of_fall * fall, least * half_thickness, most * half_thickness));
 }

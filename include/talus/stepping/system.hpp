@@ -8,18 +8,18 @@
 #include <talus/dynamics/forces.hpp>
 #include <talus/dynamics/place.hpp>
 #include <talus/dynamics/prescribed_motion.hpp>
+#include <talus/dynamics/run_state.hpp>
 #include <talus/geometry/any_shape.hpp>
 #include <talus/geometry/principal_shape.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/law/material_table.hpp>
 #include <talus/law/weighted_mean.hpp>
+#include <talus/stepping/body_shapes.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -37,15 +37,13 @@ using DefaultLaw = WeightedMean<Dim, Coulomb<Dim>>;
 template <int Dim, class Law = DefaultLaw<Dim>, class ShapeType = AnyShape<Dim>>
 requires SpaceDimension<Dim>
 struct System {
-    struct Obstacle {
-        BodyIndex body;
-        PrescribedMotion<Dim> motion;
-    };
+    using Obstacle = talus::Obstacle<Dim>;
 
     Bodies<Dim> bodies;
     std::vector<Obstacle> obstacles;
     Vector<Dim> gravity = Vector<Dim>::Zero();  ///< acceleration [m/s^2]
     std::vector<ForceField<Dim>> forces;
+    IgnoredPairs ignored;  ///< pairs that do not touch; groups of bodies: Bodies::groups
     MaterialTable<Law> laws;
 
     explicit System(MaterialTable<Law> laws_) : laws(std::move(laws_)) {}
@@ -102,27 +100,34 @@ struct System {
     void remove(std::span<const BodyId> ids);
     void remove(BodyId id) { remove(std::span(&id, 1)); }
 
+    /// Everything here that a RunState has: its clock and what it remembers are left as they are.
+    void write_to(RunState<Dim, ShapeType>& state) const;
+    /// Bodies, shapes, obstacles, gravity and time of a state in place of those there are. Throws
+    /// input_error, and changes nothing, where they do not fit together or the laws know no such
+    /// material.
+    void restore(const RunState<Dim, ShapeType>& state);
+
     /// Shapes in the bodies' frames, one for each body.
-    std::span<const ShapeType> shapes() const { return shapes_; }
+    std::span<const ShapeType> shapes() const { return shapes_.shapes(); }
     /// Of each shape about the body's centre; infinite where it has no bound [m].
-    std::span<const double> bounding_radius() const { return bounding_radius_; }
+    std::span<const double> bounding_radius() const { return shapes_.bounding_radius(); }
     /// Of each shape at its thinnest part, of compounds the thinnest child
     /// (talus::half_thickness); infinite for half-spaces; of what has none, as a rod without
     /// radius, the bounding radius [m].
-    std::span<const double> half_thickness() const { return half_thickness_; }
+    std::span<const double> half_thickness() const { return shapes_.half_thickness(); }
     /// Gives a body another shape, in the body's frame; mass and inertia stay. Throws input_error
     /// if there is no such body.
     template <Shape<Dim> S>
     void set_shape(BodyIndex body, const S& shape) {
         require_between_steps();
-        if (body < 0 || static_cast<std::size_t>(body) >= shapes_.size())
+        if (body < 0 || static_cast<std::size_t>(body) >= shapes_.count())
             detail::reject("body", body,
-                           detail::numbered("an index from 0 below", shapes_.size(),
+                           detail::numbered("an index from 0 below", shapes_.count(),
                                             ", the number of bodies with shapes"));
-        replace_shape(static_cast<std::size_t>(body), ShapeType(shape));
+        shapes_.replace(static_cast<std::size_t>(body), ShapeType(shape));
     }
     /// Another number whenever some shape is another; copies of a system share it.
-    std::uint64_t shapes_version() const { return shapes_version_; }
+    std::uint64_t shapes_version() const { return shapes_.version(); }
 
     /// Puts all obstacles where they are at time t [s]. With `reach` [s] it checks that poses and
     /// twists belong together, see `place`.
@@ -152,29 +157,14 @@ struct System {
                        bodies.material[static_cast<std::size_t>(key.b)]);
     }
 
-    /// Mean over the free bodies of bounded shape; 0 if there are none [m].
-    double mean_bounding_radius() const {
-        return bounded_count_ > 0 ? bounded_radius_sum_ / static_cast<double>(bounded_count_) : 0.0;
-    }
+    /// Mean over the free bodies of bounded shape; 0 if there are none [m]. O(bodies).
+    double mean_bounding_radius() const;
 
   private:
     void require_between_steps() const;
     void check_material(MaterialIndex material) const;
     BodyIndex attach(BodyIndex body, ShapeType shape);
     void move_up(const std::vector<BodyIndex>& to);
-    /// Into the mean, as the last of those counted.
-    void count_radius(std::size_t i) {
-        if (!std::isfinite(bounding_radius_[i]) || bodies.is_obstacle(i)) return;
-        bounded_radius_sum_ += bounding_radius_[i];
-        ++bounded_count_;
-    }
-    void replace_shape(std::size_t body, ShapeType shape);
-    static double radius_of(const ShapeType& shape);
-    static double thickness_of(const ShapeType& shape, double radius) {
-        const double half = talus::half_thickness<Dim>(shape);
-        return half > 0.0 ? half : radius;
-    }
-    static std::uint64_t new_version();
 
     /// Of this system alone: a copy, taken within a step, is in none.
     struct Step {
@@ -195,11 +185,7 @@ struct System {
     double time_ = 0.0;
     Step step_;
     std::vector<Placed> placed_;  // in the order of obstacles
-    std::vector<ShapeType> shapes_;
-    std::vector<double> bounding_radius_, half_thickness_;
-    std::uint64_t shapes_version_ = 0;
-    double bounded_radius_sum_ = 0.0;
-    std::size_t bounded_count_ = 0;
+    BodyShapes<Dim, ShapeType> shapes_;
 };
 
 template <int Dim, class Law, class ShapeType>
@@ -234,21 +220,8 @@ template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::move_up(const std::vector<BodyIndex>& to) {
     bodies.keep_if([&](std::size_t i) { return to[i] >= 0; });
-    bounded_radius_sum_ = 0.0;
-    bounded_count_ = 0;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        if (to[i] < 0) continue;
-        if (kept != i) shapes_[kept] = std::move(shapes_[i]);
-        bounding_radius_[kept] = bounding_radius_[i];
-        half_thickness_[kept] = half_thickness_[i];
-        count_radius(kept);
-        ++kept;
-    }
-    // (Not resize: a shape need not be default-constructible.)
-    shapes_.erase(shapes_.begin() + static_cast<std::ptrdiff_t>(kept), shapes_.end());
-    bounding_radius_.resize(kept);
-    half_thickness_.resize(kept);
+    if (!ignored.empty()) ignored.erase_if([&](BodyId id) { return !bodies.find(id).has_value(); });
+    shapes_.move_up(to);
     std::size_t listed = 0;
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
         const BodyIndex body = to[static_cast<std::size_t>(obstacles[k].body)];
@@ -264,7 +237,6 @@ void System<Dim, Law, ShapeType>::move_up(const std::vector<BodyIndex>& to) {
     }
     obstacles.erase(obstacles.begin() + static_cast<std::ptrdiff_t>(listed), obstacles.end());
     placed_.resize(std::min(placed_.size(), listed));
-    shapes_version_ = new_version();
 }
 
 template <int Dim, class Law, class ShapeType>
@@ -346,43 +318,63 @@ void System<Dim, Law, ShapeType>::check_material(MaterialIndex material) const {
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(BodyIndex body,
                                                                            ShapeType shape) {
-    const double radius = radius_of(shape);
-    bounding_radius_.push_back(radius);
-    half_thickness_.push_back(thickness_of(shape, radius));
-    shapes_.push_back(std::move(shape));
-    shapes_version_ = new_version();
-    count_radius(static_cast<std::size_t>(body));
+    try {
+        shapes_.push_back(std::move(shape));
+    } catch (...) {
+        bodies.keep_if([&](std::size_t i) { return i != static_cast<std::size_t>(body); });
+        throw;
+    }
     return body;
 }
 
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
-void System<Dim, Law, ShapeType>::replace_shape(std::size_t body, ShapeType shape) {
-    const double radius = radius_of(shape);
-    half_thickness_[body] = thickness_of(shape, radius);
-    shapes_[body] = std::move(shape);
-    const double old = std::exchange(bounding_radius_[body], radius);
-    shapes_version_ = new_version();
-    if (bodies.is_obstacle(body)) return;
-    bounded_radius_sum_ +=
-        (std::isfinite(radius) ? radius : 0.0) - (std::isfinite(old) ? old : 0.0);
-    bounded_count_ += std::isfinite(radius) ? 1 : 0;
-    bounded_count_ -= std::isfinite(old) ? 1 : 0;
+double System<Dim, Law, ShapeType>::mean_bounding_radius() const {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < shapes_.count(); ++i) {
+        const double radius = bounding_radius()[i];
+        if (!std::isfinite(radius) || bodies.is_obstacle(i)) continue;
+        sum += radius;
+        ++count;
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
-double System<Dim, Law, ShapeType>::radius_of(const ShapeType& shape) {
-    const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
-    return box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()
-                         : std::numeric_limits<double>::infinity();
+void System<Dim, Law, ShapeType>::write_to(RunState<Dim, ShapeType>& state) const {
+    state.bodies = bodies;
+    state.shapes.assign(shapes().begin(), shapes().end());
+    state.obstacles = obstacles;
+    state.ignored = ignored;
+    state.gravity = gravity;
+    state.time = time_;
 }
 
-/// Unlike any given before in this program, as a system may be replaced by another one.
 template <int Dim, class Law, class ShapeType>
-requires SpaceDimension<Dim> std::uint64_t System<Dim, Law, ShapeType>::new_version() {
-    static std::atomic<std::uint64_t> last{0};
-    return ++last;
+requires SpaceDimension<Dim>
+void System<Dim, Law, ShapeType>::restore(const RunState<Dim, ShapeType>& state) {
+    require_between_steps();
+    const std::size_t n = state.bodies.count();
+    require_count("shapes", state.shapes.size(), "bodies", n);
+    require_masses_of(state.bodies);
+    require_count("materials", state.bodies.material.size(), "bodies", n);
+    for (const MaterialIndex material : state.bodies.material) check_material(material);
+    require_finite("gravity", state.gravity);
+    for (const Obstacle& obstacle : state.obstacles)
+        require_in("body of an obstacle", obstacle.body, 0.0, static_cast<double>(n) - 1.0);
+    System other(laws);
+    other.bodies = state.bodies;
+    for (const ShapeType& shape : state.shapes) other.shapes_.push_back(shape);
+    other.obstacles = state.obstacles;
+    other.ignored = state.ignored;
+    for (const Obstacle& obstacle : other.obstacles)
+        other.placed_.push_back(other.placed_state(obstacle.body));
+    other.gravity = state.gravity;
+    other.forces = std::move(forces);
+    other.time_ = state.time;
+    *this = std::move(other);
 }
 
 }  // namespace talus

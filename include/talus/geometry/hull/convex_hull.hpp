@@ -6,8 +6,8 @@
 #include <talus/core/types.hpp>
 
 #if TALUS_BODIES
-#include <talus/geometry/coordinate_rounding.hpp>
-#include <talus/geometry/triangle_hull.hpp>
+#include <talus/geometry/hull/coordinate_rounding.hpp>
+#include <talus/geometry/hull/triangle_hull.hpp>
 #endif
 
 #include <algorithm>

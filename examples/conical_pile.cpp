@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSL-1.0
+//
+// A heap from a point source on a rough floor, after section 3.5 of Moreau's paper: 14,000 spheres
+// with --full. What does it weigh on, and where? The pressure on the ground by rings, with its dip
+// under the summit; the slope; the force across an upright cylinder. --rain lets the same grains
+// fall evenly on a disc, for comparison.
+//
+// Sample runs:  examples/run conical_pile
+//               examples/run conical_pile --dim 2 --count 2000
+//               examples/run conical_pile --full --out cone
+#include <talus/feed/inlet.hpp>
+#include <talus/io/series/csv_series.hpp>
+#include <talus/measure/rings.hpp>
+#include <talus/measure/stress.hpp>
+#include <talus/stepping/simulation.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "lab/command.hpp"
+#include "lab/picture.hpp"
+#include "lab/run.hpp"
+
+namespace {
+
+struct Options {
+    double dim = 3, count = 1500, radius = 0.005, mu = 0.5, rate = 1000, step = 1e-3, rest = 2.0,
+           rain = 0;
+};
+
+/// Half the width that a heap of that many grains will have, at a slope of 20 degrees [m].
+template <int Dim>
+double expected_radius(double count, double radius) {
+    const double slope = std::tan(20.0 * std::numbers::pi / 180.0), solid = Dim == 2 ? 0.8 : 0.6;
+    return Dim == 2 ? std::sqrt(count * std::numbers::pi * radius * radius / solid / slope)
+                    : radius * std::cbrt(4.0 * count / solid / slope);
+}
+
+template <int Dim>
+int pile_up(const lab::Command& command, const Options& o) {
+    using V = talus::Vector<Dim>;
+    constexpr int up = Dim - 1;
+    const double reach = 1.5 * expected_radius<Dim>(o.count, o.radius);
+    const talus::UniformRadii radii(0.8 * o.radius, 1.2 * o.radius);
+
+    talus::Simulation<Dim> sim({talus::Coulomb<Dim>{o.mu}, 0.0, 0.0},
+                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
+    auto& system = sim.system();
+    system.gravity = -9.81 * V::Unit(up);
+    system.add_obstacle(talus::HalfSpace<Dim>(V::Unit(up), -o.radius));
+    // Grains glued to the floor, on a lattice shaken by a third of its pitch.
+    talus::Random random(command.seed() + 1);
+    const double pitch = 2.2 * o.radius;
+    const int side = static_cast<int>(reach / pitch);
+    for (int i = -side; i <= side; ++i)
+        for (int j = Dim == 2 ? 0 : -side; j <= (Dim == 2 ? 0 : side); ++j) {
+            V x = V::Zero();
+            x[0] = pitch * (i + random.uniform(-0.3, 0.3));
+            if constexpr (Dim == 3) x[1] = pitch * (j + random.uniform(-0.3, 0.3));
+            x[up] = -0.5 * o.radius;
+            if (x.norm() < reach) system.add_obstacle(talus::Ball<Dim>(radii(random)), {{x, {}}});
+        }
+    const std::size_t ground = system.bodies.count();
+
+    V source = V::Zero();
+    source[up] = 0.5 * reach + 10.0 * o.radius;
+    talus::Inlet<Dim> inlet({.place = talus::in_disc<Dim>(
+                                 source, o.rain != 0 ? 0.6 * reach : 4.0 * o.radius, V::Unit(up)),
+                             .shape = talus::balls<Dim>(radii),
+                             .rate = o.rate,
+                             .total = static_cast<std::int64_t>(o.count),
+                             .velocity = -0.5 * V::Unit(up),
+                             .seed = command.seed()});
+    const std::size_t rings = 12;
+    talus::GroundPressure<Dim> pressure(talus::Rings<Dim>(V::Zero(), reach / 1.5 / rings, 18));
+
+    lab::Run run(command, sim);
+    run.carry("inlet", inlet);
+    run.carry("pressure", pressure);
+    run.begin();
+    const double poured = o.count / o.rate + 1.0;
+    if (!run.until(poured, "pouring", [&] { inlet.feed(system, sim.time()); }))
+        return run.exit_code();
+    std::vector<V> forces;
+    const bool whole = run.until(poured + o.rest, "resting", [&] {
+        if (sim.time() < poured + 0.5 * o.rest) return;  // until it has come to rest
+        const auto& jacobian = sim.data().problem.jacobian;
+        talus::contact_forces<Dim>(jacobian, sim.data().impulse, o.step, forces);
+        pressure.record(jacobian, forces, system.bodies, [&](std::size_t i) { return i < ground; });
+    });
+    if (!whole) return run.exit_code();
+
+    // The profile, against the weight of what is above each ring.
+    double weight = 0.0, grain = 0.0;
+    for (std::size_t i = ground; i < system.bodies.count(); ++i)
+        weight += 9.81 * system.bodies.mass(i);
+    grain = weight / static_cast<double>(system.bodies.count() - ground);
+    const auto heights =
+        talus::surface_heights(pressure.rings(), system.bodies, system.bounding_radius(),
+                               [&](std::size_t i) { return i >= ground; });
+    std::vector<double> middle, flank;
+    double largest = 0.0;
+    talus::CsvSeries table(command.out() / "rings.csv",
+                           {{"pressure", Dim == 2 ? "N/m" : "Pa"}, {"height", "m"}});
+    std::printf("ring at [mm]   pressure [%s]   height [mm]\n", Dim == 2 ? "N/m" : "Pa");
+    for (std::size_t k = 0; k < pressure.rings().count() && pressure.pressure(k) > 0.0; ++k) {
+        middle.push_back(pressure.rings().middle(k));
+        flank.push_back(k >= 2 ? heights[k] : std::nan(""));
+        largest = std::max(largest, pressure.pressure(k));
+        table.add(middle[k], {pressure.pressure(k), heights[k]});
+        std::printf("%12.1f   %13.4g   %11.1f\n", 1e3 * middle[k], pressure.pressure(k),
+                    1e3 * heights[k]);
+    }
+    const talus::LineFit slope = talus::fit_line(middle, flank);
+    std::printf("%lld grains; the ground carries %.4f of their weight\n",
+                static_cast<long long>(inlet.count()), pressure.force() / weight);
+    std::printf("slope %.1f degrees; pressure under the summit over the largest: %.2f\n",
+                slope.angle() * 180.0 / std::numbers::pi, pressure.pressure(0) / largest);
+    std::printf("%s\n", to_string(run.summary()).c_str());
+
+    lab::PictureParams look;
+    look.title = "A heap from a point source on a rough floor";
+    look.unit = grain;
+    look.unit_name = "mean weights";
+    const double floor = Dim == 2 ? -2.0 * o.radius : -reach, top = Dim == 2 ? 0.6 * reach : reach;
+    look.window = {{-reach, floor}, {reach, top}};
+    lab::write_picture<Dim>(command.out() / "heap.svg", sim, look);
+    return run.exit_code();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return lab::run_program("conical_pile", [&] {
+        Options o;
+        lab::Command command("conical_pile",
+                             "Grains fall from a point source onto a rough floor and form a heap, "
+                             "whose weight on the ground is measured by rings.");
+        command.number("--dim", o.dim, 2, 3, "dimension");
+        command.number("--count", o.count, 14000, 10, 1e6, "grains");
+        command.number("--radius", o.radius, 1e-6, 1e3, "mean radius of grains [m]");
+        command.number("--mu", o.mu, 0, 1e3, "friction coefficient");
+        command.number("--rate", o.rate, 1e-3, 1e6, "grains that fall in a second [1/s]");
+        command.number("--step", o.step, 1e-9, 1, "step size [s]");
+        command.number("--rest", o.rest, 1e-9, 1e6,
+                       "time to rest, and be measured in the second half [s]");
+        command.number("--rain", o.rain, 0, 1,
+                       "1: an even rain on a disc instead of a point source");
+        if (!command.read(argc, argv)) return 0;
+        command.require_whole("--dim", o.dim);
+        return o.dim == 2 ? pile_up<2>(command, o) : pile_up<3>(command, o);
+    });
+}

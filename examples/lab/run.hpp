@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/io/checkpoint/checkpoint.hpp>
+#include <talus/io/series/schedule.hpp>
+#include <talus/stepping/run_summary.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "../pile/progress.hpp"
+#include "command.hpp"
+
+namespace lab {
+
+/// Whether a thing says how it is written down and taken up again.
+template <class T>
+concept Carried = requires(const T& x, talus::NumberRecord& out) {
+    x.write(out);
+};
+
+/// The run of an experiment: it begins where its checkpoint is, shows how long it will take, writes
+/// a checkpoint every half minute of work and at the end, and remembers whether its steps can be
+/// believed.
+template <class Sim>
+class Run {
+  public:
+    /// Makes the folder for results. Throws input_error if it cannot be written.
+    Run(const Command& command, Sim& sim) : command_(command), sim_(sim) {
+        try {
+            pile::MadeFolder folder(command.out());
+            talus::require_writable(file());
+            folder.keep();
+        } catch (const std::runtime_error& error) {
+            throw talus::input_error(std::string("--out: ") + error.what());
+        }
+        pile::StopRequest::listen();
+    }
+
+    /// What is taken up with the run: random numbers, inlets, ledgers. Before `begin`.
+    template <Carried T>
+    void carry(const std::string& name, T& thing) {
+        things_[name] = {[&thing] { return talus::record_of(thing); },
+                         [&thing](const talus::NumberRecord& record) {
+                             if constexpr (requires { thing.restore(record); })
+                                 thing.restore(record);
+                             else
+                                 thing = talus::from_record<T>(record);
+                         }};
+    }
+
+    /// Goes to the last checkpoint, if there is one. Throws input_error if it is of another
+    /// experiment, or of other options, or damaged.
+    void begin() {
+        carry("summary", summary_);
+        carry("steps", done_);
+        if (command_.fresh() || !std::filesystem::exists(file())) return;
+        try {
+            const auto records = talus::load_checkpoint(file(), sim_, command_.label());
+            for (const auto& [name, thing] : things_) {
+                const auto found = records.find(name);
+                if (found == records.end())
+                    throw talus::input_error(name + " is missing, but must be there");
+                thing.second(found->second);
+            }
+        } catch (const talus::input_error& error) {
+            throw talus::input_error(std::string(error.what()) + " (--fresh begins anew)");
+        }
+        std::fprintf(stderr, "%s: goes on at %.6g s\n", command_.name().c_str(), sim_.time());
+    }
+
+    /// Steps until the clock shows `time` [s], `each()` after each step. False if the user stopped
+    /// it on the way: the program then ends.
+    template <class Each>
+    bool until(double time, const std::string& label, Each&& each) {
+        pile::Progress progress(label);
+        const double begin = sim_.time(), h = sim_.params().h;
+        while (sim_.time() < time - 0.5 * h && pile::StopRequest::signal() == 0) {
+            sim_.step();
+            summary_.record(sim_.system(), sim_.data());
+            each();
+            const double share = (sim_.time() - begin) / (time - begin);
+            if (!command_.quiet() && progress.due(share)) {
+                char remark[100];
+                std::snprintf(remark, sizeof remark, "%zu bodies, %zu contacts, t = %.4g s",
+                              sim_.system().bodies.count(), sim_.data().contact_count(),
+                              sim_.time());
+                progress.show(share, remark);
+            }
+            if (progress.seconds() > next_save_) {
+                save();
+                next_save_ = progress.seconds() + between_saves;
+            }
+        }
+        next_save_ = between_saves;
+        save();
+        return pile::StopRequest::signal() == 0;
+    }
+    /// Does what happens once in an experiment, between two phases, unless it was done before the
+    /// checkpoint.
+    template <class Action>
+    void once(int phase, Action&& action) {
+        if (done_.count >= phase) return;
+        action();
+        done_.count = phase;
+    }
+
+    void save() {
+        talus::CheckpointRecords records;
+        for (const auto& [name, thing] : things_) records[name] = thing.first();
+        talus::save_checkpoint(file(), sim_, command_.label(), records);
+    }
+
+    std::filesystem::path file() const { return command_.out() / "checkpoint.h5"; }
+    const talus::RunSummary& summary() const { return summary_; }
+    int exit_code() const {
+        if (const int signal = pile::StopRequest::signal()) return ExitCode::stopped + signal;
+        return summary_.certified() ? ExitCode::certified : ExitCode::not_certified;
+    }
+
+  private:
+    static constexpr double between_saves = 30.0;  // [s] of work
+
+    /// Phases that are over.
+    struct Done {
+        std::int64_t count = 0;
+        void write(talus::NumberRecord& out) const { out.integer(count); }
+        static Done read(talus::NumberRecordReader& in) { return {in.integer(0)}; }
+    };
+
+    const Command& command_;
+    Sim& sim_;
+    std::map<std::string, std::pair<std::function<talus::NumberRecord()>,
+                                    std::function<void(const talus::NumberRecord&)>>>
+        things_;
+    talus::RunSummary summary_;
+    Done done_;
+    double next_save_ = between_saves;
+};
+
+/// Runs an experiment and turns whatever it throws into a sentence and an exit code.
+template <class Experiment>
+int run_program(const std::string& name, Experiment&& experiment) {
+    const auto complain = [&](const std::exception& error) {
+        std::fprintf(stderr, "%s: %s\n", name.c_str(),
+                     talus::detail::printable(error.what()).c_str());
+    };
+    talus::silence_hdf5();
+    try {
+        return experiment();
+    } catch (const talus::input_error& error) {
+        complain(error);
+        return ExitCode::wrong_input;
+    } catch (const std::exception& error) {
+        complain(error);
+        return ExitCode::failed;
+    }
+}
+
+}  // namespace lab

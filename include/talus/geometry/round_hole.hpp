@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/input.hpp>
+#include <talus/core/number_record.hpp>
+#include <talus/geometry/concepts.hpp>
+
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace talus {
+
+/// The unbounded solid around a round hole: all points farther than `radius` from a point in the
+/// plane, from an axis in space. A drum, a tube, a silo: a shape for obstacles, to be closed by
+/// half-spaces. Convex bodies touch it at vertices alone, so that contacts are exact and have no
+/// seams, however it turns.
+template <int Dim>
+requires SpaceDimension<Dim>
+class RoundHole {
+  public:
+    /// About the origin of its frame. Throws input_error unless `radius` [m] is positive.
+    explicit RoundHole(double radius) requires(Dim == 2)
+        : RoundHole(Data{{}, {}, require_positive("radius of the hole", radius)}) {}
+    /// About an axis of any length through the origin of its frame.
+    RoundHole(double radius, const Vector<Dim>& axis) requires(Dim == 3)
+        : RoundHole(Data{{},
+                         require_finite("axis of the hole", axis) /
+                             require_positive("length of the hole's axis", axis.norm()),
+                         require_positive("radius of the hole", radius)}) {}
+
+    double radius() const { return data_->radius; }              ///< [m]
+    const Vector<Dim>& centre() const { return data_->centre; }  ///< in the frame of the shape [m]
+    const Vector<Dim>& axis() const { return data_->axis; }      ///< unit; zero in the plane
+    /// From the centre or the axis to a point of the frame, across [m].
+    Vector<Dim> across(const Vector<Dim>& point) const {
+        const Vector<Dim> way = point - centre();
+        return way - axis().dot(way) * axis();
+    }
+
+    Aabb<Dim> aabb(const Pose<Dim>&) const {
+        const double infinity = std::numeric_limits<double>::infinity();
+        return {Vector<Dim>::Constant(-infinity), Vector<Dim>::Constant(infinity)};
+    }
+    RoundHole placed(const Pose<Dim>& pose) const {
+        return RoundHole(Data{pose.point_world(centre()), pose.rotation * axis(), radius()});
+    }
+
+    void write(NumberRecord& out) const {
+        out.array(centre());
+        out.array(axis());
+        out.real(radius());
+    }
+    static RoundHole read(NumberRecordReader& in) {
+        Data data;
+        data.centre = require_finite("centre of the hole", in.array<Vector<Dim>>());
+        data.axis = require_finite("axis of the hole", in.array<Vector<Dim>>());
+        data.radius = require_positive("radius of the hole", in.real());
+        return RoundHole(std::move(data));
+    }
+
+  private:
+    struct Data {
+        Vector<Dim> centre, axis;
+        double radius = 0.0;
+    };
+    explicit RoundHole(Data&& data) : data_(std::make_shared<const Data>(std::move(data))) {}
+
+    std::shared_ptr<const Data> data_;
+};
+
+static_assert(Shape<RoundHole<2>, 2> && Shape<RoundHole<3>, 3>);
+static_assert(!SolidShape<RoundHole<2>, 2> && !SolidShape<RoundHole<3>, 3>);
+
+}  // namespace talus
