@@ -30,7 +30,7 @@ LAYERS = {
     "sample": {"core", "spatial", "geometry", "collision/gjk", "dynamics"},
     "measure": PHYSICS | {"law", "problem"},
     "io/mesh": {"core", "io/line_reader"},
-    "io/series": {"core", "io/vtk", "io/write_file"},
+    "io/series": {"core", "spatial", "geometry", "dynamics", "io/vtk", "io/write_file"},
     "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
 }
 LONGEST_HEADER = 400
