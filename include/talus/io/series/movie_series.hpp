@@ -175,7 +175,7 @@ class MovieFile {
 /// worst, a part of the last line.
 ///
 ///     MovieSeries<2> movie("run.movie", {.title = "Pile", .scalar = "load", .unit = "N"});
-///     movie.add(sim.time(), system.bodies, system.shapes, load);
+///     movie.add(sim.time(), system.bodies, system.shapes(), load);
 ///     // In a run that goes on from 0.5 s: after the frames up to then.
 ///     auto more = MovieSeries<2>::resumed("run.movie", {.title = "Pile", ...}, 0.5);
 template <int Dim>
