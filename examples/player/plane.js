@@ -141,7 +141,9 @@ class Drawing {
                 if (one.wall === wanted) act(one, i);
             }
         };
-        each(true, (one, i) => this.drawWall(this.scene.bodies[frame.members[i]].shape, i));
+        // What of a wall's rim is within another wall is covered.
+        for (const part of ["rim", "inside"])
+            each(true, (one, i) => this.drawWall(this.scene.bodies[frame.members[i]].shape, i, part));
         each(false, (one, i) => this.drawBody(one, i));
     }
 
@@ -172,36 +174,41 @@ class Drawing {
         }
     }
 
-    drawWall(shape, i) {
+    drawWall(shape, i, part) {
         const c = this.context, pixel = this.enter(i), p = this.frame.position;
         // Beyond the window, wherever the wall's frame stands.
         const far = (this.canvas.width + this.canvas.height) / this.scale
             + Math.hypot(p[2 * i] - this.centre[0], p[2 * i + 1] - this.centre[1]);
         c.fillStyle = this.colours.wall;
         c.strokeStyle = this.colours.wallEdge;
-        c.lineWidth = 2 * pixel;
+        c.lineWidth = 3 * pixel;  // of which half is seen
         c.beginPath();
-        if (shape.kind === "hole") {
-            const [x, y] = shape.centre, reach = far + Math.hypot(x, y) + shape.radius;
-            c.rect(-reach, -reach, 2 * reach, 2 * reach);
-            c.moveTo(x + shape.radius, y);
-            c.arc(x, y, shape.radius, 0, 2 * Math.PI);
-            c.fill("evenodd");
-            c.stroke();
-            c.beginPath();  // shows how it turns
-            c.moveTo(x + shape.radius, y);
-            c.lineTo(x + 1.04 * shape.radius, y);
-            c.stroke();
+        if (shape.kind === "hole") this.traceHole(shape, far, pixel, part);
+        else this.traceHalfSpace(shape, far, part);
+        if (part === "rim") c.stroke();
+        else c.fill("evenodd");
+    }
+
+    traceHole({radius, centre: [x, y]}, far, pixel, part) {
+        const c = this.context, reach = far + Math.hypot(x, y) + radius;
+        c.arc(x, y, radius, 0, 2 * Math.PI);
+        if (part === "rim") {  // with a mark that shows how it turns
+            c.moveTo(x + radius, y);
+            c.lineTo(x + radius - Math.min(8 * pixel, 0.2 * radius), y);
         } else {
-            // (along, up) from the point of the surface nearest to the origin.
-            const [nx, ny] = shape.normal, reach = far + Math.abs(shape.offset);
-            const at = (along, up) => [(shape.offset + up) * nx - along * ny, (shape.offset + up) * ny + along * nx];
-            c.moveTo(...at(-reach, -pixel));
-            c.lineTo(...at(reach, -pixel));
-            c.stroke();  // the line is within the wall
-            c.lineTo(...at(reach, -reach));
-            c.lineTo(...at(-reach, -reach));
-            c.fill();
+            c.closePath();
+            c.rect(x - reach, y - reach, 2 * reach, 2 * reach);
         }
+    }
+
+    traceHalfSpace({normal: [nx, ny], offset}, far, part) {
+        const reach = far + Math.abs(offset);
+        // (along, up) from the point of the surface nearest to the origin.
+        const at = (along, up) => [(offset + up) * nx - along * ny, (offset + up) * ny + along * nx];
+        this.context.moveTo(...at(-reach, 0));
+        this.context.lineTo(...at(reach, 0));
+        if (part === "rim") return;
+        this.context.lineTo(...at(reach, -reach));
+        this.context.lineTo(...at(-reach, -reach));
     }
 }

@@ -46,6 +46,7 @@ function reach(shape) {
     return farthest + shape.radius;
 }
 
+const sorted = list => Float64Array.from(list).sort();
 /** The value below which a share of a sorted list lies. */
 const quantile = (sorted, share) => sorted[Math.round(share * (sorted.length - 1))];
 
@@ -64,8 +65,8 @@ function room(samples, wanted) {
                 ends[1].push(position[dimension * i + k] + reaches[members[i]]);
             }
         if (ends[0].length === 0) return null;
-        for (const list of ends) list.sort((a, b) => a - b);
-        const inner = [quantile(ends[0], 0.01), quantile(ends[1], 0.99)], outer = [ends[0][0], ends[1].at(-1)];
+        const [lows, highs] = ends.map(sorted);
+        const inner = [quantile(lows, 0.01), quantile(highs, 0.99)], outer = [lows[0], highs.at(-1)];
         const far = outer[1] - outer[0] > 1.6 * (inner[1] - inner[0]);
         low.push(far ? inner[0] : outer[0]);
         high.push(far ? inner[1] : outer[1]);
@@ -90,14 +91,13 @@ function scalarRange(samples) {
         for (let i = 0; i < members.length; ++i)
             if (!bodies[members[i]].obstacle && Number.isFinite(scalar[i])) values.push(scalar[i]);
     if (values.length === 0) return [0, 1];
-    values.sort((a, b) => a - b);
-    const low = Math.min(0, quantile(values, 0.02)), high = Math.max(0, quantile(values, 0.98));
-    return high > low ? [low, high] : values.at(-1) > low ? [low, values.at(-1)] : [low, low + 1];
+    const list = sorted(values), low = Math.min(0, quantile(list, 0.02)), high = Math.max(0, quantile(list, 0.98));
+    return high > low ? [low, high] : list.at(-1) > low ? [low, list.at(-1)] : [low, low + 1];
 }
 
 const reaches = bodies.map(body => reach(body.shape));
-// As many frames as show where things are, at most some millions of poses.
-const sampled = Math.max(2, Math.min(frames.length, 100, Math.floor(3e6 / (1 + bodies.length))));
+// As many frames as show where things are, and no more than are read in a moment.
+const sampled = Math.max(2, Math.min(frames.length, 100, Math.floor(3e5 / (1 + bodies.length))));
 const samples = [...new Set(Array.from({length: sampled}, (_, k) => Math.round(k * (frames.length - 1) / (sampled - 1))))].map(decoded);
 const scene = {dimension, bodies, bounds: bounds(samples)};
 const range = movie.scalar ? scalarRange(samples) : null;
@@ -106,9 +106,9 @@ const range = movie.scalar ? scalarRange(samples) : null;
 
 // The more, the farther from the paper: towards black on white, towards white on black.
 const THEMES = {
-    light: {least: 0.97, most: 0.28, sheet: "#ffffff", edge: "#4a4a4a", wall: "#e4e1da", wallEdge: "#1a1a1a", plain: "#c8d3dd",
+    light: {least: 0.97, most: 0.28, sheet: "#ffffff", edge: "#4a4a4a", wall: "#e4e1da", wallEdge: "#1a1a1a", rim: "#7a7a76", plain: "#c8d3dd",
             obstacle: "#d3cfc6", unknown: "#ecdfbd"},
-    dark: {least: 0.2, most: 0.96, sheet: "#1b1f23", edge: "#868d95", wall: "#2b3137", wallEdge: "#b9bec4", plain: "#51606e",
+    dark: {least: 0.3, most: 0.96, sheet: "#1b1f23", edge: "#868d95", wall: "#2b3137", wallEdge: "#b9bec4", rim: "#7b838b", plain: "#51606e",
            obstacle: "#3a4149", unknown: "#5c5138"},
 };
 const GREYS = 128;
@@ -244,7 +244,7 @@ function resized() {
 }
 
 function fillSpeeds() {
-    const whole = last - first, at = whole > 0 && (whole < 1.5 || whole > 90)
+    const whole = last - first, at = whole > 0 && (whole < 1 || whole > 90)
         ? SPEEDS.reduce((best, one) => Math.abs(Math.log(whole / one / 10)) < Math.abs(Math.log(whole / best / 10)) ? one : best) : 1;
     for (const speed of SPEEDS) find("#speed").add(new Option(`${speed}×`, speed, speed === at, speed === at));
     state.speed = at;

@@ -25,7 +25,9 @@ function rounded({vertices, radius}) {
     const sphere = new THREE.SphereGeometry(1, 40, 28), corners = points(vertices);
     const directions = sphere.getAttribute("normal"), position = sphere.getAttribute("position"), d = new THREE.Vector3();
     for (let i = 0; i < directions.count; ++i) {
+        // Rounded, so that the two ends of the sphere's seam are one: else it gapes between corners.
         d.fromBufferAttribute(directions, i);
+        for (const x of ["x", "y", "z"]) d[x] = Math.round(1e5 * d[x]) / 1e5;
         let best = corners[0];
         for (const corner of corners) if (corner.dot(d) > best.dot(d)) best = corner;
         position.setXYZ(i, best.x + radius * d.x, best.y + radius * d.y, best.z + radius * d.z);
@@ -34,7 +36,7 @@ function rounded({vertices, radius}) {
 }
 
 function ballDetail(count) {
-    return count < 1500 ? [32, 20] : count < 8000 ? [20, 14] : [12, 8];
+    return count < 1500 ? [28, 18] : count < 4000 ? [18, 12] : [12, 9];
 }
 
 /** What a shape is drawn by: pieces, each the instance of a form that others may share. */
@@ -104,8 +106,9 @@ class Drawing {
         this.addBodies();
         this.walls = new THREE.Group();
         this.scene.add(this.walls);
-        this.wallMaterial = new THREE.MeshBasicMaterial();
-        this.holeMaterial = new THREE.MeshBasicMaterial({side: THREE.BackSide});
+        const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4};  // their own rims
+        this.wallMaterial = new THREE.MeshBasicMaterial(behind);
+        this.holeMaterial = new THREE.MeshBasicMaterial({...behind, side: THREE.BackSide});
         this.lineMaterial = new THREE.LineBasicMaterial();
     }
 
@@ -175,7 +178,7 @@ class Drawing {
         this.scene.background = new THREE.Color(colours.sheet);
         this.wallMaterial.color.set(colours.wall);
         this.holeMaterial.color.set(colours.wall);
-        this.lineMaterial.color.set(colours.wallEdge);
+        this.lineMaterial.color.set(colours.rim);
         const pose = new THREE.Matrix4(), placed = new THREE.Matrix4(), colour = new THREE.Color();
         const place = new THREE.Vector3(), turn = new THREE.Quaternion(), one = new THREE.Vector3(1, 1, 1);
         for (const form of this.forms) form.mesh.count = 0;

@@ -174,10 +174,12 @@ class MovieFile {
 /// frame is handed to the system as it is added, so that a run that is killed leaves all but, at
 /// worst, a part of the last line.
 ///
-///     MovieSeries<2> movie("run.movie", {.title = "Pile", .scalar = "load", .unit = "N"});
-///     movie.add(sim.time(), system.bodies, system.shapes(), load);
+///     const MovieWords words{.title = "Pile", .scalar = "load", .unit = "N"};
+///     MovieSeries<3> movie("run.movie", words);
+///     const std::vector<double> load(sim.system().bodies.count(), 0.0);
+///     movie.add(sim.time(), sim.system().bodies, sim.system().shapes(), load);
 ///     // In a run that goes on from 0.5 s: after the frames up to then.
-///     auto more = MovieSeries<2>::resumed("run.movie", {.title = "Pile", ...}, 0.5);
+///     auto more = MovieSeries<3>::resumed("run.movie", words, 0.5);
 template <int Dim>
 requires SpaceDimension<Dim>
 class MovieSeries {
