@@ -32,7 +32,7 @@ LAYERS = {
     "sample": {"core", "spatial", "geometry", "geometry/hull", "collision/gjk", "dynamics"},
     "measure": PHYSICS | {"law", "problem"},
     "io/mesh": {"core", "io/line_reader"},
-    "io/series": {"core", "io/vtk", "io/write_file"},
+    "io/series": {"core", "spatial", "geometry", "dynamics", "io/vtk", "io/write_file"},
     "io/checkpoint": {"core", "spatial", "dynamics", "io/hdf5_reader", "io/hdf5_writer"},
     "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
 }

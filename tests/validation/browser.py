@@ -11,6 +11,8 @@ import time
 import urllib.error
 import urllib.request
 
+# What Chromium needs besides to draw in space (WebGL) where there is no graphics card.
+IN_SPACE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -33,7 +35,7 @@ def _free_port():
 class Browser:
     """One browser with a profile of its own; close() ends it and its driver."""
 
-    def __init__(self):
+    def __init__(self, flags=()):
         self._profile = tempfile.TemporaryDirectory(prefix="talus-chromium-", ignore_cleanup_errors=True)
         port = _free_port()
         self._base = f"http://127.0.0.1:{port}"
@@ -43,7 +45,7 @@ class Browser:
         try:
             self._wait_for_driver()
             binary = next(path for path in map(shutil.which, ("chromium", "google-chrome")) if path)
-            arguments = [*FLAGS, f"--user-data-dir={self._profile.name}"]
+            arguments = [*FLAGS, *flags, f"--user-data-dir={self._profile.name}"]
             answer = self._send("POST", "/session", {"capabilities": {"alwaysMatch": {
                 "browserName": "chrome",
                 "goog:chromeOptions": {"binary": binary, "args": arguments},
@@ -114,6 +116,19 @@ class Browser:
         self._call("POST", "/actions", {"actions": [
             {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": [move]}]})
 
+    def drag(self, selector, x, y):
+        """From the middle of an element to an offset from there, with the mouse pressed."""
+        origin = {ELEMENT: self.find(selector)}
+        steps = [{"type": "pointerMove", "duration": 0, "x": 0, "y": 0, "origin": origin}, {"type": "pointerDown", "button": 0},
+                 {"type": "pointerMove", "duration": 60, "x": x, "y": y, "origin": origin}, {"type": "pointerUp", "button": 0}]
+        self._call("POST", "/actions", {"actions": [
+            {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": steps}]})
+
+    def wheel(self, selector, amount):
+        """Turns the wheel over the middle of an element; downwards if positive."""
+        scroll = {"type": "scroll", "x": 0, "y": 0, "deltaX": 0, "deltaY": amount, "duration": 0, "origin": {ELEMENT: self.find(selector)}}
+        self._call("POST", "/actions", {"actions": [{"type": "wheel", "id": "wheel", "actions": [scroll]}]})
+
     def command(self, name, **parameters):
         """A command of the DevTools protocol."""
         return self._call("POST", "/goog/cdp/execute", {"cmd": name, "params": parameters})
@@ -121,6 +136,11 @@ class Browser:
     def resize(self, width, height):
         self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
                      mobile=False)
+
+    def disconnect(self):
+        """From here on no network is there; files of this machine are."""
+        self.command("Network.enable")
+        self.command("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)
 
     def prefer(self, scheme):
         self.command("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])

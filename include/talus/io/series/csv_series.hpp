@@ -3,13 +3,14 @@
 
 #include <talus/core/input.hpp>
 #include <talus/core/printable.hpp>
+#include <talus/io/series/growing_file.hpp>
 #include <talus/io/write_file.hpp>
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -42,9 +43,7 @@ class CsvSeries {
     /// Throws std::runtime_error naming the path if it cannot be written, and input_error for names
     /// or units with a comma, a quote or a line break.
     CsvSeries(std::filesystem::path path, const std::vector<Column>& columns)
-        : CsvSeries(std::move(path), columns, O_TRUNC) {
-        write(header_);
-    }
+        : CsvSeries(std::move(path), columns.size(), header_of(columns)) {}
 
     /// Goes on with a table: rows later than `time` [s], which the run will make again, and what a
     /// killed run left of a last row are taken out, the others stay as they are. Begins it if there
@@ -66,7 +65,7 @@ class CsvSeries {
                               "' to go on with it");
         const std::size_t end = end_of_rows(text, header.size(), time, path);
         if (end < text.size()) write_file(path, std::string_view(text).substr(0, end));
-        return CsvSeries(path, columns, O_APPEND);
+        return CsvSeries(detail::GrowingFile::continued(path), columns.size());
     }
 
     /// Adds a row. Throws input_error unless there is one value per column and the time is finite
@@ -76,31 +75,22 @@ class CsvSeries {
         if (!std::isfinite(time)) detail::reject("time of a row", time, "finite");
         std::string row = exact(time);
         for (const double x : values) row += "," + exact(x);
-        write(row + "\n");
+        file_.write(row + "\n");
     }
     void add(double time, std::initializer_list<double> values) {
         add(time, std::span(values.begin(), values.size()));
     }
 
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return file_.path(); }
 
   private:
-    CsvSeries(std::filesystem::path path, const std::vector<Column>& columns, int how)
-        : path_(std::move(path)),
-          header_(header_of(columns)),
-          columns_(columns.size()),
-          file_(opened(path_, how)) {}
-
-    static int opened(const std::filesystem::path& path, int how) {
-        const detail::Output output = detail::output_of(path);
-        const int id = output.descriptor >= 0 ? ::dup(output.descriptor)
-                                              : ::open(output.file.c_str(),
-                                                       O_WRONLY | O_CREAT | O_CLOEXEC | O_NOCTTY |
-                                                           (output.stream ? 0 : how | O_APPEND),
-                                                       0666);
-        if (id < 0) detail::fail_to_write(path, errno);
-        return id;
+    CsvSeries(detail::GrowingFile file, std::size_t columns)
+        : columns_(columns), file_(std::move(file)) {}
+    CsvSeries(std::filesystem::path path, std::size_t columns, const std::string& header)
+        : CsvSeries(detail::GrowingFile::begun(std::move(path)), columns) {
+        file_.write(header);
     }
+
     static std::string header_of(const std::vector<Column>& columns) {
         std::string text = "time [s]";
         for (const Column& c : columns) {
@@ -136,15 +126,9 @@ class CsvSeries {
         const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr;
         return std::string(digits.data(), end);
     }
-    void write(std::string_view text) {
-        const int error = detail::write_all(file_.id(), text);
-        if (error != 0) detail::fail_to_write(path_, error);
-    }
 
-    std::filesystem::path path_;
-    std::string header_;
     std::size_t columns_;
-    detail::FileDescriptor file_;
+    detail::GrowingFile file_;
 };
 
 }  // namespace talus
