@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 //
-// A drum, filled by a third, turns slowly: the surface of the grains leans until they flow. A drum is a
-// RoundHole, which has no seams; in space half-spaces, which turn
-// with it, close its ends.
+// A drum, filled by a third, turns slowly: the surface of the grains leans until they flow. A drum
+// is a RoundHole, which has no seams; in space half-spaces, which turn with it, close its ends.
 #include <talus/feed/inlet.hpp>
 #include <talus/stepping/simulation.hpp>
 
@@ -31,12 +30,12 @@ void drum() {
     talus::Inlet<Dim> inlet({.place = talus::at_point<Dim>(V(0.06 * V::Unit(Dim - 1))),
                              .shape = talus::balls<Dim>(talus::UniformRadii(0.8 * grain, grain)),
                              .rate = 200.0,
-                             .total = 100,
+                             .total = 70,
                              .velocity = -1.0 * V::Unit(Dim - 1)});
     double lean = 0.0, times = 0.0;  // of the way from the drum's axis to the grains' mass centre
-    const talus::RunSummary run = sim.run(1.6, [&](auto&) {
+    const talus::RunSummary run = sim.run(1.2, [&](auto&) {
         inlet.feed(system, sim.time());
-        if (sim.time() < 1.2) return;
+        if (sim.time() < 0.9) return;
         V centre = V::Zero();
         for (std::size_t i = 0; i < system.bodies.count(); ++i)
             if (!system.bodies.is_obstacle(i))

@@ -11,7 +11,7 @@ template <int Dim>
 void shaking_table() {
     using V = talus::Vector<Dim>;
     const double mu = 0.35, g = 9.81, omega = 20.0, growth = 1.0;  // [-], [m/s^2], [1/s], [m/s^3]
-    talus::Simulation<Dim> sim({talus::Coulomb<Dim>{mu}}, {.h = 1e-3});
+    talus::Simulation<Dim> sim({talus::Coulomb<Dim>{mu}}, {.h = 2e-4});
     auto& system = sim.system();
     system.gravity = -g * V::Unit(Dim - 1);
     V half = V::Constant(0.5), block = V::Constant(0.05);
@@ -25,7 +25,7 @@ void shaking_table() {
     double slipped_at = 0.0;
     const talus::RunSummary run = sim.run(10.0, [&](const auto&) {
         const V way = system.bodies.position[body] - system.bodies.position[table];
-        if (std::abs(way[0]) > 1e-3) slipped_at = sim.time();
+        if (std::abs(way[0]) > 1e-4) slipped_at = sim.time();
         return slipped_at == 0.0;
     });
     std::printf("%dD: slips at %.2f s, where the table reaches %.3f g; mu is %.3f; %s\n", Dim,

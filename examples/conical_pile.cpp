@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "lab/command.hpp"
+#include "lab/film.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
 
@@ -28,7 +29,7 @@ namespace {
 
 struct Options {
     double dim = 3, count = 1500, radius = 0.005, mu = 0.5, rate = 1000, step = 1e-3, rest = 2.0,
-           rain = 0;
+           rain = 0, frames = 0;
 };
 
 /// Half the width that a heap of that many grains will have, at a slope of 20 degrees [m].
@@ -81,11 +82,16 @@ int pile_up(const lab::Command& command, const Options& o) {
     run.carry("inlet", inlet);
     run.carry("pressure", pressure);
     run.begin();
+    lab::Film<Dim> film(command, "A heap from a point source", o.frames, sim.time());
     const double poured = o.count / o.rate + 1.0;
-    if (!run.until(poured, "pouring", [&] { inlet.feed(system, sim.time()); }))
+    if (!run.until(poured, "pouring", [&] {
+            inlet.feed(system, sim.time());
+            film.show(sim);
+        }))
         return run.exit_code();
     std::vector<V> forces;
     const bool whole = run.until(poured + o.rest, "resting", [&] {
+        film.show(sim);
         if (sim.time() < poured + 0.5 * o.rest) return;  // until it has come to rest
         const auto& jacobian = sim.data().problem.jacobian;
         talus::contact_forces<Dim>(jacobian, sim.data().impulse, o.step, forces);
@@ -149,6 +155,8 @@ int main(int argc, char** argv) {
                        "time to rest, and be measured in the second half [s]");
         command.number("--rain", o.rain, 0, 1,
                        "1: an even rain on a disc instead of a point source");
+        command.number("--frames", o.frames, 0, 1000,
+                       "of a movie for examples/player, for each second [1/s]; 0: none");
         if (!command.read(argc, argv)) return 0;
         command.require_whole("--dim", o.dim);
         return o.dim == 2 ? pile_up<2>(command, o) : pile_up<3>(command, o);

@@ -393,4 +393,14 @@ BOOST_AUTO_TEST_CASE(words_cannot_break_a_line) {
                std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_round_hole_tells_radius_centre_and_axis) {
+    std::string text;
+    talus::detail::add_shape<3>(
+        text, talus::view_of<3>(talus::RoundHole<3>(2.5, talus::Vector<3>(0.0, 4.0, 0.0))));
+    BOOST_TEST(text == R"({"kind":"hole","radius":2.5,"centre":[0,0,0],"axis":[0,1,0]})");
+    text.clear();
+    talus::detail::add_shape<2>(text, talus::view_of<2>(talus::RoundHole<2>(0.5)));
+    BOOST_TEST(text == R"({"kind":"hole","radius":0.5,"centre":[0,0],"axis":[0,0]})");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -144,6 +144,17 @@ void add_half_space(std::string& text, const HalfSpace<Dim>& wall) {
     text += "}";
 }
 
+template <int Dim>
+void add_hole(std::string& text, const RoundHole<Dim>& wall) {
+    text += R"({"kind":"hole","radius":)";
+    add_number(text, wall.radius());
+    text += R"(,"centre":[)";
+    add_numbers<Dim>(text, wall.centre());
+    text += R"(],"axis":[)";
+    add_numbers<Dim>(text, wall.axis());
+    text += "]}";
+}
+
 /// What tells no more than its box; what has an end on no side cannot be drawn by that.
 template <int Dim>
 void add_box(std::string& text, const Aabb<Dim>& box) {
@@ -168,8 +179,8 @@ void add_shape(std::string& text, const ShapeView<Dim>& shape) {
             return add_core(text, shape.core());
         case ShapeKind::half_space:
             return add_half_space(text, shape.template as<HalfSpace<Dim>>());
-        // The place of further walls, such as a round hole:
-        //     {"kind":"hole","radius":R,"centre":[...],"axis":[...]}, which the player knows.
+        case ShapeKind::hole:
+            return add_hole(text, shape.template as<RoundHole<Dim>>());
         case ShapeKind::convex:
             return add_outline(text, shape);
         case ShapeKind::compound:
