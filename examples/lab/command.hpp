@@ -38,6 +38,8 @@ class Command {
             "143 stopped.\nUnits are SI.\n");
         app_.add_option("--out", out_, "folder for results, made if there is none (" + out_ + ")");
         add_number(app_, "--seed", seed_, 0, 1e15, "of everything random (1)");
+        add_number(app_, "--save-every", save_every_, 0, 1e9,
+                   "work between two checkpoints [s] (30)");
         app_.add_flag("--full", full_, "the paper's size, where that takes longer than minutes");
         app_.add_flag("--fresh", fresh_, "begin anew, whatever there is");
         app_.add_flag("--quiet", quiet_, "no progress bar");
@@ -91,6 +93,7 @@ class Command {
     const std::string& name() const { return name_; }
     std::filesystem::path out() const { return out_; }
     std::uint64_t seed() const { return static_cast<std::uint64_t>(seed_); }
+    double save_every() const { return save_every_; }  ///< [s] of work
     bool quiet() const { return quiet_; }
     bool fresh() const { return fresh_; }
 
@@ -105,7 +108,7 @@ class Command {
     std::string name_, out_;
     CLI::App app_;
     std::vector<Number> numbers_;
-    double seed_ = 1;
+    double seed_ = 1, save_every_ = 30;
     bool full_ = false, fresh_ = false, quiet_ = false;
 };
 

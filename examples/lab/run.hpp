@@ -25,7 +25,7 @@ concept Carried = requires(const T& x, talus::NumberRecord& out) {
 };
 
 /// The run of an experiment: it begins where its checkpoint is, shows how long it will take, writes
-/// a checkpoint every half minute of work and at the end, and remembers whether its steps can be
+/// a checkpoint every so often and at the end, and remembers whether its steps can be
 /// believed.
 template <class Sim>
 class Run {
@@ -80,6 +80,7 @@ class Run {
     bool until(double time, const std::string& label, Each&& each) {
         pile::Progress progress(label);
         const double begin = sim_.time(), h = sim_.params().h;
+        double next_save = command_.save_every();
         while (sim_.time() < time - 0.5 * h && pile::StopRequest::signal() == 0) {
             sim_.step();
             summary_.record(sim_.system(), sim_.data());
@@ -92,13 +93,12 @@ class Run {
                               sim_.time());
                 progress.show(share, remark);
             }
-            if (progress.seconds() > next_save_) {
+            if (progress.seconds() > next_save) {
                 save();
-                next_save_ = progress.seconds() + between_saves;
+                next_save = progress.seconds() + command_.save_every();
             }
         }
-        next_save_ = between_saves;
-        save();
+        if (sim_.time() > begin) save();
         return pile::StopRequest::signal() == 0;
     }
     /// Does what happens once in an experiment, between two phases, unless it was done before the
@@ -124,8 +124,6 @@ class Run {
     }
 
   private:
-    static constexpr double between_saves = 30.0;  // [s] of work
-
     /// Phases that are over.
     struct Done {
         std::int64_t count = 0;
@@ -140,7 +138,6 @@ class Run {
         things_;
     talus::RunSummary summary_;
     Done done_;
-    double next_save_ = between_saves;
 };
 
 /// Runs an experiment and turns whatever it throws into a sentence and an exit code.

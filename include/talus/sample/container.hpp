@@ -18,7 +18,8 @@ enum class Lid {
 /// first, then those of the other axes, low and high, then the lid. Throws input_error unless low <
 /// high along each axis.
 ///
-///     for (const auto& wall : container<Dim>(low, high)) system.add_obstacle(wall);
+///     const Vector<3> low(0.0, 0.0, 0.0), high(1.0, 1.0, 2.0);
+///     for (const auto& wall : container<3>(low, high)) sim.system().add_obstacle(wall);
 template <int Dim>
 std::vector<HalfSpace<Dim>> container(const Vector<Dim>& low, const Vector<Dim>& high,
                                       Lid lid = Lid::open) {

@@ -91,10 +91,11 @@ void require_same_motions(const RunState<Dim, ShapeType>& state) {
 /// `.talus-*.part` beside it). Throws input_error for a record whose name is not as told, and as
 /// write_file does; then nothing is written.
 ///
-///     save_checkpoint("silo.h5", sim, "silo", {{"rain", record_of(random)}});
+///     RunSummary run = sim.run(1.0);
+///     save_checkpoint("silo.h5", sim, "silo", {{"run", record_of(run)}});
 ///     // In a program that builds the same simulation:
 ///     const CheckpointRecords records = load_checkpoint("silo.h5", sim, "silo");
-///     random = from_record<Random>(records.at("rain"));
+///     run = from_record<RunSummary>(records.at("run"));
 template <Resumable Sim>
 void save_checkpoint(const std::filesystem::path& path, const Sim& sim,
                      const std::string& experiment, const CheckpointRecords& records = {}) {
