@@ -23,6 +23,7 @@
 #include "lab/command.hpp"
 #include "lab/film.hpp"
 #include "lab/picture.hpp"
+#include "lab/rough_floor.hpp"
 #include "lab/run.hpp"
 
 namespace {
@@ -51,19 +52,7 @@ int pile_up(const lab::Command& command, const Options& o) {
                                {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
     auto& system = sim.system();
     system.gravity = -9.81 * V::Unit(up);
-    system.add_obstacle(talus::HalfSpace<Dim>(V::Unit(up), -o.radius));
-    // Grains glued to the floor, on a lattice shaken by a third of its pitch.
-    talus::Random random(command.seed() + 1);
-    const double pitch = 2.2 * o.radius;
-    const int side = static_cast<int>(reach / pitch);
-    for (int i = -side; i <= side; ++i)
-        for (int j = Dim == 2 ? 0 : -side; j <= (Dim == 2 ? 0 : side); ++j) {
-            V x = V::Zero();
-            x[0] = pitch * (i + random.uniform(-0.3, 0.3));
-            if constexpr (Dim == 3) x[1] = pitch * (j + random.uniform(-0.3, 0.3));
-            x[up] = -0.5 * o.radius;
-            if (x.norm() < reach) system.add_obstacle(talus::Ball<Dim>(radii(random)), {{x, {}}});
-        }
+    lab::add_rough_floor<Dim>(system, radii, reach, command.seed() + 1);
     const std::size_t ground = system.bodies.count();
 
     V source = V::Zero();
@@ -79,20 +68,23 @@ int pile_up(const lab::Command& command, const Options& o) {
     talus::GroundPressure<Dim> pressure(talus::Rings<Dim>(V::Zero(), reach / 1.5 / rings, 18));
 
     lab::Run run(command, sim);
+    lab::Mark poured;
     run.carry("inlet", inlet);
+    run.carry("poured", poured);
     run.carry("pressure", pressure);
     run.begin();
     lab::Film<Dim> film(command, "A heap from a point source", o.frames, sim.time());
-    const double poured = o.count / o.rate + 1.0;
-    if (!run.until(poured, "pouring", [&] {
-            inlet.feed(system, sim.time());
-            film.show(sim);
-        }))
+    const auto pour = [&] {
+        inlet.feed(system, sim.time());
+        film.show(sim);
+        if (inlet.done()) poured.time = std::min(poured.time, sim.time());
+    };
+    if (!run.until([&] { return inlet.done(); }, o.count / o.rate, "pouring", pour))
         return run.exit_code();
     std::vector<V> forces;
-    const bool whole = run.until(poured + o.rest, "resting", [&] {
+    const bool whole = run.until(poured.time + o.rest, "resting", [&] {
         film.show(sim);
-        if (sim.time() < poured + 0.5 * o.rest) return;  // until it has come to rest
+        if (sim.time() < poured.time + 0.5 * o.rest) return;  // until it has come to rest
         const auto& jacobian = sim.data().problem.jacobian;
         talus::contact_forces<Dim>(jacobian, sim.data().impulse, o.step, forces);
         pressure.record(jacobian, forces, system.bodies, [&](std::size_t i) { return i < ground; });
@@ -131,8 +123,8 @@ int pile_up(const lab::Command& command, const Options& o) {
     look.title = "A heap from a point source on a rough floor";
     look.unit = grain;
     look.unit_name = "mean weights";
-    const double floor = Dim == 2 ? -2.0 * o.radius : -reach, top = Dim == 2 ? 0.6 * reach : reach;
-    look.window = {{-reach, floor}, {reach, top}};
+    const double shown = 0.8 * reach, floor = Dim == 2 ? -2.0 * o.radius : -shown;
+    look.window = {{-shown, floor}, {shown, Dim == 2 ? 0.45 * shown : shown}};
     lab::write_picture<Dim>(command.out() / "heap.svg", sim, look);
     return run.exit_code();
 }

@@ -5,10 +5,13 @@
 #include <talus/io/series/schedule.hpp>
 #include <talus/stepping/run_summary.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -22,6 +25,13 @@ namespace lab {
 template <class T>
 concept Carried = requires(const T& x, talus::NumberRecord& out) {
     x.write(out);
+};
+
+/// When something happened, to be carried along; before: never.
+struct Mark {
+    double time = std::numeric_limits<double>::infinity();  ///< [s]
+    void write(talus::NumberRecord& out) const { out.real(time); }
+    static Mark read(talus::NumberRecordReader& in) { return {in.real()}; }
 };
 
 /// The run of an experiment: it begins where its checkpoint is, shows how long it will take, writes
@@ -78,14 +88,21 @@ class Run {
     /// it on the way: the program then ends.
     template <class Each>
     bool until(double time, const std::string& label, Each&& each) {
+        const double h = sim_.params().h;
+        return until([&] { return sim_.time() >= time - 0.5 * h; }, time, label, each);
+    }
+    /// Steps until `over()`, which will be at about the time `expected` [s].
+    template <std::predicate Over, class Each>
+    bool until(Over&& over, double expected, const std::string& label, Each&& each) {
         pile::Progress progress(label);
-        const double begin = sim_.time(), h = sim_.params().h;
+        const double begin = sim_.time();
         double next_save = command_.save_every();
-        while (sim_.time() < time - 0.5 * h && pile::StopRequest::signal() == 0) {
+        while (!over() && pile::StopRequest::signal() == 0) {
             sim_.step();
             summary_.record(sim_.system(), sim_.data());
             each();
-            const double share = (sim_.time() - begin) / (time - begin);
+            const double share =
+                over() ? 1.0 : std::min((sim_.time() - begin) / (expected - begin), 0.99);
             if (!command_.quiet() && progress.due(share)) {
                 char remark[100];
                 std::snprintf(remark, sizeof remark, "%zu bodies, %zu contacts, t = %.4g s",

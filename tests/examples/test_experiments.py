@@ -33,7 +33,7 @@ class Experiments(unittest.TestCase):
         for word in words:
             self.assertIn(word, result.stderr)
 
-    def small(self, dim, *options, rest=0.4):
+    def small(self, dim, *options, rest=1.2):
         count = 60 if dim == 2 else 40
         return ["--dim", dim, "--count", count, "--rate", 400, "--rest", rest, "--quiet", "--frames", 20, *options]
 
