@@ -97,7 +97,7 @@ int pile_up(const lab::Command& command, const Options& o) {
         weight += 9.81 * system.bodies.mass(i);
     grain = weight / static_cast<double>(system.bodies.count() - ground);
     const auto heights =
-        talus::surface_heights(pressure.rings(), system.bodies, system.bounding_radius(),
+        talus::surface_heights(pressure.rings(), system.bodies, system.half_thickness(),
                                [&](std::size_t i) { return i >= ground; });
     std::vector<double> middle, flank;
     double largest = 0.0;
@@ -125,7 +125,7 @@ int pile_up(const lab::Command& command, const Options& o) {
     look.unit_name = "mean weights";
     const double shown = 0.8 * reach, floor = Dim == 2 ? -2.0 * o.radius : -shown;
     look.window = {{-shown, floor}, {shown, Dim == 2 ? 0.45 * shown : shown}};
-    lab::write_picture<Dim>(command.out() / "heap.svg", sim, look);
+    if (run.stepped()) lab::write_picture<Dim>(command.out() / "heap.svg", sim, look);
     return run.exit_code();
 }
 
@@ -147,8 +147,8 @@ int main(int argc, char** argv) {
                        "time to rest, and be measured in the second half [s]");
         command.number("--rain", o.rain, 0, 1,
                        "1: an even rain on a disc instead of a point source");
-        command.number("--frames", o.frames, 0, 1000,
-                       "of a movie for examples/player, for each second [1/s]; 0: none");
+        command.shown_number("--frames", o.frames, 0, 1000,
+                             "of a movie for examples/player, for each second [1/s]; 0: none");
         if (!command.read(argc, argv)) return 0;
         command.require_whole("--dim", o.dim);
         return o.dim == 2 ? pile_up<2>(command, o) : pile_up<3>(command, o);

@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -60,6 +62,13 @@ class Command {
         numbers_.back().at_full = at_full;
     }
 
+    /// The same of what is shown alone: a checkpoint does not ask for it.
+    void shown_number(const std::string& option, double& value, double low, double high,
+                      const std::string& help) {
+        number(option, value, low, high, help);
+        numbers_.back().of_physics = false;
+    }
+
     /// Reads the command line; false if it asked for help, which was then printed. Throws
     /// input_error, one sentence.
     bool read(int argc, char** argv) {
@@ -84,9 +93,9 @@ class Command {
     }
     /// The experiment with all its numbers, by which a checkpoint knows its own.
     std::string label() const {
-        std::string text = name_ + " --seed " + talus::detail::text_of(seed_);
+        std::string text = name_ + " --seed " + exact(seed_);
         for (const Number& n : numbers_)
-            text += " " + n.option + " " + talus::detail::text_of(*n.value);
+            if (n.of_physics) text += " " + n.option + " " + exact(*n.value);
         return text;
     }
 
@@ -103,7 +112,12 @@ class Command {
         double* value;
         double at_full;
         CLI::Option* given;
+        bool of_physics = true;
     };
+    static std::string exact(double x) {
+        std::array<char, 32> digits{};
+        return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
+    }
 
     std::string name_, out_;
     CLI::App app_;

@@ -28,12 +28,11 @@ class Film {
         else
             movie_.emplace(file, words);
     }
-    /// After each step.
+    /// After each step, before bodies are taken out.
     template <class Sim>
     void show(const Sim& sim) {
         if (!movie_ || !due_->due(sim)) return;
-        std::vector<double> load = loads<Dim>(sim);
-        load.resize(sim.system().bodies.count(), 0.0);  // some came after the step
+        const std::vector<double> load = loads<Dim>(sim);
         movie_->add(sim.time(), sim.system().bodies, sim.system().shapes(), load);
     }
 

@@ -154,8 +154,9 @@ std::string picture(const Sim& sim, const PictureParams& params, talus::Dimensio
     for (std::size_t i = 0; i < system.bodies.count(); ++i) {
         if (system.bodies.is_obstacle(i)) continue;
         const talus::Vector<3> centre = system.bodies.position[i] + shift;
-        talus::DrawnSolid solid{centre, system.bounding_radius()[i], load[i]};
         const auto view = talus::view_of<3>(system.shapes()[i]);
+        const double radius = view.has_core() ? view.core().bound : system.bounding_radius()[i];
+        talus::DrawnSolid solid{centre, radius, load[i]};
         if (view.kind() == talus::ShapeKind::core)
             for (std::size_t f = 0; f < view.core().face_count(); ++f) {
                 solid.faces.emplace_back();

@@ -134,6 +134,8 @@ class Run {
     }
 
     std::filesystem::path file() const { return command_.out() / "checkpoint.h5"; }
+    /// Whether there is a last step to be looked at: a run that was over had none.
+    bool stepped() const { return sim_.data().h > 0.0; }
     const talus::RunSummary& summary() const { return summary_; }
     int exit_code() const {
         if (const int signal = pile::StopRequest::signal()) return ExitCode::stopped + signal;

@@ -72,6 +72,31 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(an_inlet_keeps_its_rate_and_its_total, D, dimensio
     BOOST_TEST(inlet.done());
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_crowded_inlet_does_not_prefer_small_bodies, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto params = rain<Dim>();
+    params.place = talus::at_point<Dim>(point<Dim>(0.0, 0.5));
+    params.shape = talus::balls<Dim>(talus::UniformRadii(0.005, 0.015));
+    params.rate = 1e6;
+    params.total = 400;
+    talus::Inlet<Dim> inlet(params);
+    talus::System<Dim> system(talus::DefaultLaw<Dim>{{0.3}, 0.0, 0.0});
+    // What came goes on by a little in each turn, and out of the way in the end.
+    double sum = 0.0;
+    while (!inlet.done()) {
+        inlet.feed(system, 1.0);
+        auto& bodies = system.bodies;
+        for (std::size_t i = 0; i < bodies.count(); ++i) bodies.position[i][0] += 5e-4;
+        system.remove_if([&](std::size_t i) {
+            const bool gone = bodies.position[i][0] > 0.05;
+            if (gone) sum += system.half_thickness()[i];
+            return gone;
+        });
+    }
+    for (const double radius : system.half_thickness()) sum += radius;
+    BOOST_CHECK_CLOSE(sum / 400.0, 0.01, 5.0);  // three standard errors
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(no_body_comes_where_there_is_no_room, D, dimensions) {
     constexpr int Dim = D::value;
     auto sim = silo<Dim>();

@@ -268,6 +268,59 @@ BOOST_AUTO_TEST_CASE(what_is_not_this_run_is_refused_in_one_sentence) {
     BOOST_TEST(same_bits(numbers(other.sim), numbers(yard.sim)));
 }
 
+BOOST_AUTO_TEST_CASE(a_motion_of_another_kind_is_noticed) {
+    const TemporaryFolder folder("checkpoint-motion");
+    const auto build = [](const talus::PrescribedMotion<2>& motion) {
+        talus::Simulation<2> sim(talus::DefaultLaw<2>{{0.4}, 0.0, 0.0}, {.h = 1e-3});
+        sim.system().add_obstacle(talus::HalfSpace<2>(V<2>::Unit(1), 0.0), motion);
+        return sim;
+    };
+    const talus::PrescribedMotion<2> still;
+    const auto conveyor = still.named("conveyor").with_surface([](double) {
+        return talus::Twist<2>{V<2>::Unit(0), {}};
+    });
+    BOOST_TEST(conveyor.name() == "conveyor");
+    auto sim = build(conveyor);
+    sim.step();
+    talus::save_checkpoint(folder / "belt.h5", sim, "belt");
+    auto other = build(still.named("conveyor"));
+    BOOST_CHECK_THROW(talus::load_checkpoint(folder / "belt.h5", other, "belt"),
+                      talus::input_error);
+    auto same = build(conveyor);
+    BOOST_CHECK_NO_THROW(talus::load_checkpoint(folder / "belt.h5", same, "belt"));
+}
+
+BOOST_AUTO_TEST_CASE(within_a_step_nothing_is_restored) {
+    Yard<2> yard;
+    const auto saved = yard.sim.state();
+    for (int k = 0; k < 5; ++k) yard.step();
+    const auto before = numbers(yard.sim);
+    yard.sim.system().forces.push_back([&](double, const auto&, auto) { yard.sim.restore(saved); });
+    BOOST_CHECK_THROW(yard.sim.step(), talus::input_error);
+    BOOST_TEST(same_bits(before, numbers(yard.sim)));
+}
+
+BOOST_AUTO_TEST_CASE(records_of_impossible_things_are_refused) {
+    using Box = talus::Box<3>;
+    const auto refused = [](auto change) {
+        talus::NumberRecord record = talus::record_of(Box(V<3>(0.1, 0.2, 0.3)));
+        change(record);
+        BOOST_CHECK_THROW(talus::from_record<Box>(record), talus::input_error);
+    };
+    // 8 vertices, 6 normals, then the begins of 6 loops: none may wrap around.
+    refused([](auto& r) { r.integers[4] = 0xfffffffe; });
+    refused([](auto& r) { r.integers[3] = 1; });
+    refused([](auto& r) { r.integers.back() = 99; });
+    refused([](auto& r) { r.reals[3 + 3 * 8] = 2.0; });  // a normal of another length
+    refused([](auto& r) { r.reals[4] = std::numeric_limits<double>::quiet_NaN(); });
+    talus::NumberRecord turn = talus::record_of(talus::Rotation<3>());
+    turn.reals[3] = 2.0;
+    BOOST_CHECK_THROW(talus::from_record<talus::Rotation<3>>(turn), talus::input_error);
+    talus::NumberRecord wall = talus::record_of(talus::HalfSpace<2>(V<2>::Unit(1), 0.0));
+    wall.reals[1] = 3.0;
+    BOOST_CHECK_THROW(talus::from_record<talus::HalfSpace<2>>(wall), talus::input_error);
+}
+
 /// What loading says; nothing if it loaded, and then what was saved.
 std::string complaint_or_state(const std::filesystem::path& path, Yard<2>& other,
                                const Yard<2>& saved) {

@@ -3,6 +3,7 @@
 // closed forms.
 #include <talus/dynamics/servo.hpp>
 #include <talus/geometry/box.hpp>
+#include <talus/law/bilateral.hpp>
 #include <talus/measure/energy_ledger.hpp>
 #include <talus/solver/solver_registry.hpp>
 #include <talus/stepping/equilibrium.hpp>
@@ -91,6 +92,41 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_hinge_turns_by_its_moment_about_its_axis, D, dim
     BOOST_TEST((spin - spin[axis] * W<Dim>::Unit(axis)).norm() < 1e-12 * spin.norm());
     BOOST_TEST(system.bodies.position[door].is_zero());
     BOOST_TEST(books.closure() < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(a_top_on_a_rail_keeps_its_angular_momentum) {
+    auto sim = simulation<3>(law<3>(0.0), 1e-3, V<3>::Zero(), false);
+    auto& bodies = sim.system().bodies;
+    const W<3> moments(1.0, 2.0, 2.5), spin(1.0, 2.0, 0.5);
+    const auto top = sim.system().add(talus::Ball<3>(0.1), talus::Inertia<3>{1.0, moments}, {},
+                                      {V<3>::Zero(), spin});
+    talus::LockedAxes<3> rail;
+    rail.translation.fill(true);
+    bodies.lock(top, rail);
+    BOOST_TEST(sim.run(2.0).certified());
+    const W<3> momentum = bodies.rotation[top] * W<3>(moments.cwiseProduct(bodies.spin[top]));
+    BOOST_TEST((momentum - moments.cwiseProduct(spin)).norm() < 1e-9);
+    BOOST_TEST(sim.data().end[top].linear.is_zero());
+}
+
+/// Hung on a pin.
+template <int Dim>
+struct Pinned : talus::SimulationTypes<Dim> {
+    using Law = talus::Bilateral<Dim>;
+};
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_pin_holds_a_body_on_a_rail_across_it, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim, Pinned<Dim>> sim(talus::Bilateral<Dim>{}, {.h = 1e-3});
+    auto& system = sim.system();
+    system.gravity = -g * up<Dim>();
+    system.add_obstacle(talus::Ball<Dim>(0.1));
+    const auto body = system.add(talus::Ball<Dim>(0.1), 1000.0, {V<Dim>(0.2 * x_axis<Dim>()), {}});
+    // The normal is along the locked axis; what hangs is held by the tangents.
+    auto rail = talus::LockedAxes<Dim>::all_but_translation(Dim - 1);
+    system.bodies.lock(body, rail);
+    for (int k = 0; k < 50; ++k) sim.step();
+    BOOST_TEST(std::abs(system.bodies.position[body][Dim - 1]) < 1e-6);
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@
 #include <talus/geometry/shape_view.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace talus {
@@ -82,26 +83,38 @@ void append_hole_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a, const
                                     out);
 }
 
-/// The same of a convex shape that is known by its support alone: its point that is farthest out,
-/// found by asking for the support along the way out of the point before.
+/// The same of a convex shape that is known by its support alone: the points that are farthest out
+/// on two opposite sides, found by asking for the support along the way out of the point before.
 template <int Dim>
 void append_hole_contact_by_support(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                                     const RoundHole<Dim>& b, const Pose<Dim>& pose_b, double margin,
                                     std::vector<ContactPoint<Dim>>& out) {
     const Aabb<Dim> box = a.aabb(pose_a);
-    Vector<Dim> across = b.across(pose_b.point_body(0.5 * (box.low + box.high)));
-    if (!(across.norm() > 0.0)) return;
-    Vector<Dim> x;
-    for (int k = 0; k < 100; ++k) {
-        const Vector<Dim> out_of_it = pose_b.rotation * across;
-        x = pose_a.point_world(a.support(pose_a.rotation.transpose_times(out_of_it)));
-        const Vector<Dim> next = b.across(pose_b.point_body(x));
-        constexpr double rounding = 1e-13;  // of directions
-        const bool there = (next / next.norm() - across / across.norm()).norm() <= rounding;
-        across = next;
-        if (there) break;
+    const Vector<Dim> centre = pose_b.point_body(0.5 * (box.low + box.high));
+    Vector<Dim> start = b.across(centre);
+    for (int k = 0; k < Dim && !(start.norm() > 0.0); ++k)  // on the axis: any way across
+        start = b.across(b.centre() + Vector<Dim>::Unit(k));
+    const double size = (box.high - box.low).norm();
+    std::optional<Vector<Dim>> first;
+    for (const double side : {1.0, -1.0}) {
+        Vector<Dim> way = side * start, x;
+        for (int k = 0; k < 100; ++k) {
+            const Vector<Dim> outwards = pose_b.rotation * way;
+            x = pose_a.point_world(a.support(pose_a.rotation.transpose_times(outwards)));
+            const Vector<Dim> next = b.across(pose_b.point_body(x));
+            if (!(next.norm() > 0.0)) break;
+            constexpr double rounding = 1e-13;  // of directions
+            const bool there = (next / next.norm() - way / way.norm()).norm() <= rounding;
+            way = next;
+            if (there) break;
+        }
+        constexpr double apart = 1e-6;  // of the size: else it is the same point
+        if (first && (x - *first).norm() <= apart * size) return;
+        detail::append_in_hole<Dim>(x, 0.0, b, pose_b, margin,
+                                    feature_code({FeatureKind::vertex, side > 0.0 ? 0u : 1u}, {}),
+                                    out);
+        first = x;
     }
-    detail::append_in_hole<Dim>(x, 0.0, b, pose_b, margin, {}, out);
 }
 
 }  // namespace talus

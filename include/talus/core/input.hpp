@@ -66,6 +66,13 @@ inline double require_in(std::string_view item, double value, double low, double
     return value;
 }
 
+/// Throws input_error naming `item` unless a length is 1 to rounding.
+inline void require_unit(std::string_view item, double length) {
+    constexpr double rounding = 1e-9;
+    if (!(std::abs(length - 1.0) <= rounding))
+        detail::reject("length of the " + std::string(item), length, "1");
+}
+
 /// Returns `value` (a vector or a matrix); throws input_error naming `item` and the first entry
 /// that is not finite.
 template <class Array>

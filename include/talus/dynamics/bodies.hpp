@@ -123,8 +123,7 @@ struct Bodies {
             throw input_error(detail::numbered("body", k,
                                                " is an obstacle, but must be free to have locked "
                                                "axes"));
-        if (rotation_dof < Dim >> 1 && axes.rotation_count() == 1)
-            detail::reject("locked axes of rotation", 1, "none, two or three");
+        axes.require_possible();
         require_at_rest(k, axes);
         locked[k] = axes;
     }
@@ -198,11 +197,18 @@ std::size_t require_masses_of(const Bodies<Dim>& bodies) {
     const std::size_t n = bodies.count();
     require_count("inverse masses", bodies.inverse_mass.size(), "bodies", n);
     require_count("inverse moments of inertia", bodies.inverse_inertia.size(), "bodies", n);
+    require_count("rotations", bodies.rotation.size(), "bodies", n);
+    require_count("velocities", bodies.velocity.size(), "bodies", n);
+    require_count("spins", bodies.spin.size(), "bodies", n);
+    require_count("ids", bodies.id.size(), "bodies", n);
     require_count("sets of locked axes", bodies.locked.size(), "bodies", n);
     require_count("groups", bodies.groups.size(), "bodies", n);
     std::size_t without = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        if (bodies.locked[i].any()) bodies.require_at_rest(i, bodies.locked[i]);
+        if (bodies.locked[i].any()) {
+            bodies.locked[i].require_possible();
+            bodies.require_at_rest(i, bodies.locked[i]);
+        }
         const double inverse = bodies.inverse_mass[i];
         const AngularVector<Dim>& moments = bodies.inverse_inertia[i];
         if (!(inverse >= 0.0 && std::isfinite(inverse)))

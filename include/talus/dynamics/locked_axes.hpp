@@ -55,6 +55,12 @@ struct LockedAxes {
         return count;
     }
 
+    /// Throws input_error where two of three axes of rotation are free: no guide does that.
+    void require_possible() const {
+        if (turns > 1 && rotation_count() == 1)
+            detail::reject("locked axes of rotation", 1, "none, two or three");
+    }
+
     /// What is left of a velocity along the axes that are free.
     Vector<Dim> free_part(Vector<Dim> v) const {
         for (std::size_t k = 0; k < translation.size(); ++k)

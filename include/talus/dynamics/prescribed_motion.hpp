@@ -58,6 +58,7 @@ class PrescribedMotion {
     PrescribedMotion with_surface(std::function<Twist<Dim>(double)> surface) const {
         PrescribedMotion result(pose_, std::move(surface));
         result.surface_moves_ = true;
+        result.name_ = name_;
         return result;
     }
 

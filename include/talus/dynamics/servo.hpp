@@ -37,9 +37,10 @@ struct ServoParams {
 
 /// A force that drives one free body, such as a wall with locked axes (Bodies::lock), towards a
 /// target: `system.forces.push_back(servo<Dim>(id, {...}))`. The body has a mass, and what pushes
-/// back comes out of the contacts of the same step, so that any target and stiffness is stable. It
-/// does nothing when the body is gone. Throws input_error if a number is out of range or there is
-/// no force; the force itself is checked by each step.
+/// back comes out of the contacts of the same step, so that any load is stable on anything. A force
+/// that depends on the body's own place is a spring k, explicit as all applied forces: it is stable
+/// for h < 2 sqrt(m / k). It does nothing when the body is gone. Throws input_error if a number is
+/// out of range or there is no force; the force itself is checked by each step.
 template <int Dim>
 ForceField<Dim> servo(BodyId body, ServoParams<Dim> params) {
     require_finite("direction of the servo", params.direction);

@@ -63,7 +63,7 @@ class Inlet {
   public:
     /// Throws input_error if a number is out of range, or there is no place or shape.
     explicit Inlet(InletParams<Dim, ShapeType> params)
-        : params_(std::move(params)), random_(params_.seed) {
+        : params_(std::move(params)), random_(params_.seed), shapes_(~params_.seed) {
         require_positive("density of the inlet", params_.density);
         require_non_negative("rate of the inlet", params_.rate);
         require_in("total of the inlet", static_cast<double>(params_.total), 0.0, 1e19);
@@ -97,15 +97,18 @@ class Inlet {
     /// How far it is; what it was made of is said again by the program.
     void write(NumberRecord& out) const {
         random_.write(out);
+        shapes_.write(out);
         out.integer(count_);
         out.integer(owed_);
     }
     void restore(const NumberRecord& record) {
         NumberRecordReader in(record);
-        Random random = Random::read(in);
-        const auto count = in.integer(0), owed = in.integer(0);
+        constexpr std::int64_t most = std::int64_t{1} << 60;
+        const Random random = Random::read(in), shapes = Random::read(in);
+        const auto count = in.integer(0, most), owed = in.integer(0, most);
         in.require_end();
         random_ = random;
+        shapes_ = shapes;
         count_ = count;
         owed_ = owed;
     }
@@ -121,7 +124,7 @@ class Inlet {
                   const Pose<Dim>& pose);
 
     InletParams<Dim, ShapeType> params_;
-    Random random_;
+    Random random_, shapes_;  // of places, and of shapes
     std::int64_t count_ = 0, owed_ = 0;
     std::vector<ContactPoint<Dim>> points_;
 };
@@ -132,8 +135,9 @@ template <class Law>
 std::size_t Inlet<Dim, ShapeType>::feed(System<Dim, Law, ShapeType>& system, double time) {
     std::size_t added = 0;
     for (std::int64_t left = due(time); left > 0; --left) {
-        // All that is random of one body is drawn whether it finds room or not.
-        const ShapeType shape = params_.shape(random_);
+        // A shape that finds no room is the next one too: small ones must not win by fitting.
+        const Random before = shapes_;
+        const ShapeType shape = params_.shape(shapes_);
         const auto principal = in_principal_frame<Dim>(shape);
         bool came = false;
         for (int k = 0; k < params_.tries && !came; ++k) {
@@ -145,7 +149,10 @@ std::size_t Inlet<Dim, ShapeType>::feed(System<Dim, Law, ShapeType>& system, dou
                        Twist<Dim>{params_.velocity, AngularVector<Dim>::Zero()}, params_.material);
             came = true;
         }
-        if (!came) break;
+        if (!came) {
+            shapes_ = before;
+            break;
+        }
         ++count_;
         ++added;
     }

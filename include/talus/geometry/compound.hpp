@@ -130,7 +130,7 @@ class CompoundOf {
         data.mass.volume = in.real();
         data.mass.centroid = in.array<Vector<Dim>>();
         data.mass.inertia = in.array<AngularMatrix<Dim>>();
-        data.half_thickness = in.real();
+        data.half_thickness = require_non_negative("half thickness of a compound", in.real());
         return CompoundOf(Made{}, share(std::move(data)));
     }
 

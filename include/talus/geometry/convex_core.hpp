@@ -239,9 +239,11 @@ void ConvexCore<Dim>::require_whole() const {
         return std::ranges::all_of(list, [count](std::uint32_t i) { return i < count; });
     };
     const std::size_t faces = normals_.size();
+    for (const Vector<Dim>& n : normals_) require_unit("normal of a core", n.norm());
     require(!vertices_.empty() && loop_begin_.size() == faces + 1 && loop_begin_.front() == 0 &&
             loop_begin_.back() == loops_.size());
-    for (std::size_t f = 0; f < faces; ++f) require(loop_begin_[f] + 2 <= loop_begin_[f + 1]);
+    for (std::size_t f = 0; f < faces; ++f)
+        require(loop_begin_[f] <= loop_begin_[f + 1] && loop_begin_[f + 1] - loop_begin_[f] >= 2);
     require(below(loops_, vertices_.size()) && below(loop_edges_, edges_.size()));
     require(loop_edges_.size() == (Dim == 3 ? loops_.size() : 0));
     for (const CoreEdge& e : edges_) {

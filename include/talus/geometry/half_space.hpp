@@ -51,6 +51,7 @@ class HalfSpace {
     static HalfSpace read(NumberRecordReader& in) {
         const auto normal = in.array<Vector<Dim>>();
         HalfSpace s(normal, in.real());
+        require_unit("normal of the half-space", normal.norm());
         s.normal_ = normal;  // to the last bit, which normalising may change
         return s;
     }

@@ -13,8 +13,10 @@ namespace talus {
 
 /// The unbounded solid around a round hole: all points farther than `radius` from a point in the
 /// plane, from an axis in space. A drum, a tube, a silo: a shape for obstacles, to be closed by
-/// half-spaces. Convex bodies touch it at vertices alone, so that contacts are exact and have no
-/// seams, however it turns.
+/// half-spaces. Convex bodies touch it at vertices alone, so that it has no seams, however it
+/// turns. A step goes along the tangent: what is held against the wall at a speed v along it enters
+/// it by (h v)^2 / (2 R) in each step, h v^2 / (2 R) in a second, and loses as much of its speed; a
+/// smaller h, or a correction of positions (GapCorrection), where that counts.
 template <int Dim>
 requires SpaceDimension<Dim>
 class RoundHole {
@@ -56,6 +58,10 @@ class RoundHole {
         data.centre = require_finite("centre of the hole", in.array<Vector<Dim>>());
         data.axis = require_finite("axis of the hole", in.array<Vector<Dim>>());
         data.radius = require_positive("radius of the hole", in.real());
+        if constexpr (Dim == 3)
+            require_unit("axis of the hole", data.axis.norm());
+        else
+            require_in("axis of the hole", data.axis.norm(), 0.0, 0.0);
         return RoundHole(std::move(data));
     }
 

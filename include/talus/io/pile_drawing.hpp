@@ -25,12 +25,12 @@ struct DrawnGrain {
 struct PileDrawing {
     double box_width = 0.0;  ///< walls at x = 0 and here, floor at y = 0 [m]
     std::vector<DrawnGrain> grains = {};
-    std::vector<DrawnGrain> obstacles = {};  ///< dark, whatever their load
-    /// Shows what lies between two corners [m], without the box. What reaches out of them is cut.
-    std::optional<std::pair<Vector<2>, Vector<2>>> window = {};
     std::vector<DrawnContact<2>> contacts = {};
     std::string title = {};
     std::vector<std::string> captions = {};  ///< lines under the picture
+    std::vector<DrawnGrain> obstacles = {};  ///< dark, whatever their load
+    /// Shows what lies between two corners [m], without the box. What reaches out of them is cut.
+    std::optional<std::pair<Vector<2>, Vector<2>>> window = {};
 };
 
 namespace detail {

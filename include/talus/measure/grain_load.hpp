@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/input.hpp>
 #include <talus/problem/contact_problem.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -16,6 +18,10 @@ void grain_load(const ContactJacobian<Dim>& jacobian, std::span<const Vector<Dim
                 std::size_t body_count, std::vector<double>& load) {
     load.assign(body_count, 0.0);
     for (std::size_t c = 0; c < r.size(); ++c) {
+        if (static_cast<std::size_t>(std::max(jacobian.a[c], jacobian.b[c])) >= body_count)
+            throw input_error(detail::numbered("contact", c,
+                                               " of the step is of a body that is gone, but loads "
+                                               "must be asked before bodies are taken out"));
         load[static_cast<std::size_t>(jacobian.a[c])] += r[c][0];
         load[static_cast<std::size_t>(jacobian.b[c])] += r[c][0];
     }

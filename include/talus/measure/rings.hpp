@@ -77,7 +77,9 @@ class GroundPressure {
             const auto b = static_cast<std::size_t>(jacobian.b[c]);
             const bool on_a = is_ground(a);
             if (on_a == is_ground(b)) continue;
-            const Vector<Dim> point = bodies.position[a] + jacobian.arm_a[c];
+            // By the ground's arm: the grain has moved since.
+            const Vector<Dim> point = on_a ? bodies.position[a] + jacobian.arm_a[c]
+                                           : bodies.position[b] + jacobian.arm_b[c];
             const std::size_t k = rings_.ring(point);
             const double down = on_a ? -forces[c][Dim - 1] : forces[c][Dim - 1];
             total_ += down;

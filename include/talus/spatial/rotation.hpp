@@ -61,8 +61,9 @@ class Rotation<2> {
         out.real(s_);
     }
     static Rotation read(NumberRecordReader& in) {
-        const double c = in.real();
-        return Rotation(c, in.real());
+        const double c = in.real(), s = in.real();
+        require_unit("rotation", std::hypot(c, s));
+        return Rotation(c, s);
     }
 
   private:
@@ -136,6 +137,7 @@ class Rotation<3> {
     static Rotation read(NumberRecordReader& in) {
         Rotation r;
         for (int k = 0; k < 4; ++k) r.q_.coeffs()[k] = in.real();
+        require_unit("rotation", r.q_.norm());
         return r;
     }
 

@@ -249,8 +249,9 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
                       system.bounding_radius(), params.skin * system.mean_bounding_radius(), reach_,
                       motion_, touching, system.ignored, data.contacts);
     data.contacts.keep_if([&](std::size_t c) {
-        if (!can_part(data.contacts, c, system.bodies)) return false;
         const ContactKey& key = data.contacts.key[c];
+        if (!can_part(data.contacts, c, system.bodies) && !holds_any_pull<Dim>(system.law_of(key)))
+            return false;
         const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
         return data.contacts.gap[c] <= closed_gap(params, std::min(thickness(a), thickness(b)),
                                                   std::max(fall_[a], fall_[b])) ||

@@ -176,12 +176,17 @@ auto Simulation<Dim, Types>::state() const -> RunState<Dim, ShapeType> {
 template <int Dim, class Types>
 requires SpaceDimension<Dim>
 void Simulation<Dim, Types>::restore(const RunState<Dim, ShapeType>& state) {
+    system_.require_between_steps();
     if (state.h != params_.h)
         detail::reject("step size h of the state", state.h,
                        "that of the simulation, " + detail::text_of(params_.h));
     require_non_negative("steps of the state", static_cast<double>(state.step_count));
     if (!std::isfinite(state.time_start))
         detail::reject("begin of the state", state.time_start, "finite");
+    const double now = state.time_start + static_cast<double>(state.step_count) * state.h;
+    if (!(std::abs(state.time - now) <= 1e-9 * (std::abs(now) + state.h)))
+        detail::reject("time of the obstacles of the state", state.time,
+                       "that of its clock, " + detail::text_of(now));
     SystemType system = system_;
     system.restore(state);
     Correction correction = gap_correction_;

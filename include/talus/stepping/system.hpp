@@ -102,9 +102,9 @@ struct System {
 
     /// Everything here that a RunState has: its clock and what it remembers are left as they are.
     void write_to(RunState<Dim, ShapeType>& state) const;
-    /// Bodies, shapes, obstacles, gravity and time of a state in place of those there are. Throws
-    /// input_error, and changes nothing, where they do not fit together or the laws know no such
-    /// material.
+    /// Bodies, shapes, obstacles, pairs ignored, gravity and time of a state in place of those
+    /// there are. Throws input_error, and changes nothing, where they do not fit together or the
+    /// laws know no such material.
     void restore(const RunState<Dim, ShapeType>& state);
 
     /// Shapes in the bodies' frames, one for each body.
@@ -150,6 +150,7 @@ struct System {
         step_.under_way = true;
     }
     void end_step() noexcept { step_.under_way = false; }
+    void require_between_steps() const;
 
     /// The law of a contact: that of the two bodies' materials.
     const Law& law_of(const ContactKey& key) const {
@@ -161,7 +162,6 @@ struct System {
     double mean_bounding_radius() const;
 
   private:
-    void require_between_steps() const;
     void check_material(MaterialIndex material) const;
     BodyIndex attach(BodyIndex body, ShapeType shape);
     void move_up(const std::vector<BodyIndex>& to);

@@ -19,7 +19,7 @@
 namespace talus {
 
 /// Data of one's own that a checkpoint carries, by names of letters, digits, `_`, `-` and `.`:
-/// `{{"rain", record_of(random)}, {"books", record_of(ledger)}}`.
+/// `{{"rain", record_of(random)}, {"run", record_of(summary)}}`.
 using CheckpointRecords = std::map<std::string, NumberRecord>;
 
 /// Motions of obstacles that are made of functions, by the names that they have
@@ -65,17 +65,23 @@ void require_same_motions(const RunState<Dim, ShapeType>& state) {
     for (const Obstacle<Dim>& obstacle : state.obstacles) {
         const Pose<Dim> pose = obstacle.motion.pose(state.time);
         const Vector<Dim>& position = state.bodies.position[obstacle.body];
+        const Twist<Dim> twist = obstacle.motion.twist(state.time),
+                         stored = state.bodies.twist(obstacle.body);
         const double off = (pose.position - position).norm() +
                            pose.rotation.distance(state.bodies.rotation[obstacle.body]);
-        constexpr double rounding = 1e-9;
-        if (!(off <= rounding * (1.0 + position.norm())))
-            throw input_error("motion" +
-                              (obstacle.motion.name().empty()
-                                   ? std::string()
-                                   : " '" + printable(obstacle.motion.name(), 40) + "'") +
-                              numbered(" of body", static_cast<std::size_t>(obstacle.body)) +
-                              " leads elsewhere at time " + text_of(state.time) +
-                              ", but must lead to where the checkpoint has the body");
+        const double other =
+            (twist.linear - stored.linear).norm() + (twist.angular - stored.angular).norm();
+        const double speed = stored.linear.norm() + stored.angular.norm();
+        constexpr double rounding = 1e-9, of_differences = 1e-6;
+        if (!(off <= rounding * (1.0 + position.norm()) && other <= of_differences * (1.0 + speed)))
+            throw input_error(
+                "motion" +
+                (obstacle.motion.name().empty()
+                     ? std::string()
+                     : " '" + printable(obstacle.motion.name(), 40) + "'") +
+                numbered(" of body", static_cast<std::size_t>(obstacle.body)) +
+                " leads elsewhere at time " + text_of(state.time) +
+                ", but must lead to where the checkpoint has the body, at its velocity");
     }
 }
 

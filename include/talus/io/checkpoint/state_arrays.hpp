@@ -158,6 +158,8 @@ RunState<Dim, ShapeType> state_of(const NamedArrays& arrays, const MotionOf<Dim>
     for (std::size_t i = 0; i < n; ++i) state.shapes.push_back(ShapeType::read(shape_reader));
     shape_reader.require_end();
     const auto& ignored = arrays.integer_list("ignored_pairs");
+    if (ignored.size() % 2 != 0)
+        throw input_error("number of ids in ignored_pairs is odd, but must be even");
     for (std::size_t k = 0; k + 1 < ignored.size(); k += 2)
         state.ignored.insert({ignored[k]}, {ignored[k + 1]});
     const NumberRecord motions = arrays.record("obstacles/motion");
