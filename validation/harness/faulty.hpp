@@ -293,7 +293,7 @@ struct FaultyHooks : talus::NoHooks {
                 motion.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }
         detection.detect(bodies, system.shapes(), system.shapes_version(), system.bounding_radius(),
-                         0.0, reach, motion, tolerance, data.contacts);
+                         0.0, reach, motion, tolerance, system.ignored, data.contacts);
         data.contacts.keep_if([&](std::size_t c) {
             return data.contacts.gap[c] <= tolerance ||
                    !talus::bounces<Dim>(system.law_of(data.contacts.key[c]));
