@@ -28,6 +28,9 @@ CEILINGS = {
     "04_own_law":           Ceiling(7.75, 25, 1024),
     "05_own_solver":        Ceiling(6.6, 24, 1024),
     "06_watch_convergence": Ceiling(2.5, 6, 1024),
+    "07_hopper":            Ceiling(7.5, 26, 1024),
+    "08_drum":              Ceiling(7.15, 26, 1024),
+    "09_shaking_table":     Ceiling(6.75, 24, 1024),
     # with talus::compiled, which they are always linked with
     "pile":                 Ceiling(4.95, 19, 1024),  # options, JSON
     "pile/plane":           Ceiling(5.8, 24, 1024),  # a whole simulation, a solver chosen by name, pictures

@@ -169,7 +169,8 @@ auto Simulation<Dim, Types>::state() const -> RunState<Dim, ShapeType> {
     state.h = params_.h;
     state.time_start = time_start_;
     state.step_count = step_count_;
-    gap_correction_.write(state.correction);
+    if constexpr (requires { gap_correction_.write(state.correction); })
+        gap_correction_.write(state.correction);
     return state;
 }
 
@@ -191,7 +192,7 @@ void Simulation<Dim, Types>::restore(const RunState<Dim, ShapeType>& state) {
     system.restore(state);
     Correction correction = gap_correction_;
     NumberRecordReader remembered(state.correction);
-    correction.restore(remembered);
+    if constexpr (requires { correction.restore(remembered); }) correction.restore(remembered);
     remembered.require_end();
     integrator_.warm_start().restore(state);
     system_ = std::move(system);

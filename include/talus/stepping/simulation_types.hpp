@@ -3,7 +3,6 @@
 
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/instantiate.hpp>
-#include <talus/core/number_record.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/sweeps/accelerated_gauss_seidel.hpp>
 #include <talus/stepping/step_hooks.hpp>
@@ -37,18 +36,15 @@ struct NoGapCorrection {
     void require_valid() const {}
     template <class SystemType, class Data>
     void apply(SystemType&, Data&) {}
-    void write(NumberRecord&) const {}
-    void restore(NumberRecordReader&) {}
 };
 
-/// What corrects positions after a step, which has the settings it finds valid.
+/// What corrects positions after a step, which has the settings it finds valid. If it remembers
+/// anything from step to step it also has `write(NumberRecord&)` and
+/// `restore(NumberRecordReader&)`, so that checkpoints hold it (GapCorrection).
 template <class C, class SystemType, class Data>
-concept PositionCorrection = requires(C& correction, SystemType& system, Data& data,
-                                      NumberRecord& out, NumberRecordReader& in) {
+concept PositionCorrection = requires(C& correction, SystemType& system, Data& data) {
     correction.require_valid();
     correction.apply(system, data);
-    correction.write(out);   // what it remembers from step to step
-    correction.restore(in);  // nothing is changed where it throws
 };
 
 /// The types that a simulation is made of. Derive from it and name those that are to be others; the
