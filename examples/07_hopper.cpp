@@ -37,7 +37,7 @@ void hopper() {
     auto sink = talus::Sink<Dim>::below(up, -0.2);
     const talus::RunSummary run = sim.run(1.5, [&](auto&) {
         inlet.feed(system, sim.time());
-        inlet.owe(static_cast<std::int64_t>(sink.drain(system)));
+        inlet.owe(sink.drain(system));
     });
     std::printf("%dD: %lld grains came, %lld left; %s\n", Dim,
                 static_cast<long long>(inlet.count()), static_cast<long long>(sink.count()),

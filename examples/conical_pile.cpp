@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 //
 // A heap from a point source on a rough floor, after section 3.5 of Moreau's paper: 14,000 spheres
-// with --full. What does it weigh on, and where? The pressure on the ground by rings, with its dip
-// under the summit; the slope; the force across an upright cylinder. --rain lets the same grains
-// fall evenly on a disc, for comparison.
+// with --full. Where does it press on the ground, and is that less under the summit? The pressure
+// by rings, and the slope. --rain 1 lets the same grains fall evenly on a disc, for comparison.
 //
 // Sample runs:  examples/run conical_pile
 //               examples/run conical_pile --dim 2 --count 2000
@@ -151,6 +150,8 @@ int main(int argc, char** argv) {
                              "of a movie for examples/player, for each second [1/s]; 0: none");
         if (!command.read(argc, argv)) return 0;
         command.require_whole("--dim", o.dim);
+        command.require_whole("--count", o.count);
+        command.require_whole("--rain", o.rain);
         return o.dim == 2 ? pile_up<2>(command, o) : pile_up<3>(command, o);
     });
 }

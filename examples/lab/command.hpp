@@ -18,8 +18,6 @@
 #include <vector>
 
 #include "../number_option.hpp"
-#include "../pile/outputs.hpp"
-#include "../pile/stop_request.hpp"
 
 namespace lab {
 

@@ -16,7 +16,9 @@
 #include <string>
 #include <utility>
 
+#include "../pile/made_folder.hpp"
 #include "../pile/progress.hpp"
+#include "../pile/stop_request.hpp"
 #include "command.hpp"
 
 namespace lab {
@@ -35,8 +37,7 @@ struct Mark {
 };
 
 /// The run of an experiment: it begins where its checkpoint is, shows how long it will take, writes
-/// a checkpoint every so often and at the end, and remembers whether its steps can be
-/// believed.
+/// a checkpoint every so often and at the end, and remembers whether its steps can be believed.
 template <class Sim>
 class Run {
   public:
@@ -68,7 +69,6 @@ class Run {
     /// experiment, or of other options, or damaged.
     void begin() {
         carry("summary", summary_);
-        carry("steps", done_);
         if (command_.fresh() || !std::filesystem::exists(file())) return;
         try {
             const auto records = talus::load_checkpoint(file(), sim_, command_.label());
@@ -118,15 +118,6 @@ class Run {
         if (sim_.time() > begin) save();
         return pile::StopRequest::signal() == 0;
     }
-    /// Does what happens once in an experiment, between two phases, unless it was done before the
-    /// checkpoint.
-    template <class Action>
-    void once(int phase, Action&& action) {
-        if (done_.count >= phase) return;
-        action();
-        done_.count = phase;
-    }
-
     void save() {
         talus::CheckpointRecords records;
         for (const auto& [name, thing] : things_) records[name] = thing.first();
@@ -143,20 +134,12 @@ class Run {
     }
 
   private:
-    /// Phases that are over.
-    struct Done {
-        std::int64_t count = 0;
-        void write(talus::NumberRecord& out) const { out.integer(count); }
-        static Done read(talus::NumberRecordReader& in) { return {in.integer(0)}; }
-    };
-
     const Command& command_;
     Sim& sim_;
     std::map<std::string, std::pair<std::function<talus::NumberRecord()>,
                                     std::function<void(const talus::NumberRecord&)>>>
         things_;
     talus::RunSummary summary_;
-    Done done_;
 };
 
 /// Runs an experiment and turns whatever it throws into a sentence and an exit code.

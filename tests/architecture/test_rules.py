@@ -53,6 +53,20 @@ class Rules(unittest.TestCase):
         self.accepts("solver/cones/a.hpp", "#include <talus/solver/report.hpp>\n#include <talus/linear/b.hpp>\n")
         self.accepts("stepping/a.hpp", "#include <talus/solver/sweeps/b.hpp>\n")
 
+    def test_a_file_of_tests_that_no_list_names_is_reported(self):
+        for listed, found in (("talus_test(law test_a.cpp)", 1), ("talus_test(law test_a.cpp test_b.cpp)", 0),
+                              ("file(GLOB files CONFIGURE_DEPENDS test_*.cpp)", 0)):
+            with tempfile.TemporaryDirectory() as root:
+                tests = pathlib.Path(root) / "tests" / "law"
+                tests.mkdir(parents=True)
+                (pathlib.Path(root) / "include" / "talus").mkdir(parents=True)
+                (tests / "CMakeLists.txt").write_text(listed)
+                for name in ("test_a.cpp", "test_b.cpp"):
+                    (tests / name).write_text(HEAD)
+                violations = rules.Tree(root).check()
+                self.assertEqual(len(violations), found, violations)
+                self.assertEqual([v for v in violations if "tests/law/test_b.cpp" not in v], [])
+
     def test_crowded_rooms_are_reported(self):
         with tempfile.TemporaryDirectory() as root:
             law = pathlib.Path(root) / "include" / "talus" / "law"

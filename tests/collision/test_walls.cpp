@@ -87,6 +87,36 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(bodies_touch_a_hole_where_they_are_farthest_out, D
     BOOST_TEST((same.axis() == hole<Dim>(2.0).axis()));
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_of_ones_own_touches_a_hole_on_both_sides, D, dimensions) {
+    constexpr int Dim = D::value;
+    using V = talus::Vector<Dim>;
+    V axes = V::Constant(0.2);
+    axes[0] = 1.0;
+    const Ellipsoid<Dim> long_one{axes};
+    const auto round = [] {
+        if constexpr (Dim == 2)
+            return talus::RoundHole<2>(1.02);
+        else
+            return talus::RoundHole<3>(1.02, V::Unit(1));
+    }();
+    for (const double off : {0.0, 0.005, -0.005}) {
+        const talus::Pose<Dim> pose{V(off * V::Unit(0)), {}};
+        std::vector<talus::ContactPoint<Dim>> out;
+        talus::contact_points<Dim>(long_one, pose, round, talus::Pose<Dim>{}, 0.1, out);
+        BOOST_REQUIRE(out.size() == 2u);
+        BOOST_TEST((out[0].feature != out[1].feature));
+        double left = 1.0, right = 1.0;
+        for (const auto& c : out) (c.normal[0] > 0.0 ? left : right) = c.gap;
+        BOOST_CHECK_SMALL(right - (0.02 - off), 1e-9);
+        BOOST_CHECK_SMALL(left - (0.02 + off), 1e-9);
+    }
+    // What touches at one end alone has one contact within a smaller margin.
+    std::vector<talus::ContactPoint<Dim>> out;
+    talus::contact_points<Dim>(long_one, {V(0.015 * V::Unit(0)), {}}, round, talus::Pose<Dim>{},
+                               0.01, out);
+    BOOST_TEST(out.size() == 1u);
+}
+
 /// Period of small swings in a hollow of radius R: sqrt((1 + kap) (R - r) / g) if it rolls, kap = 0
 /// if it slides [s].
 template <int Dim>

@@ -56,6 +56,11 @@ class Experiments(unittest.TestCase):
             self.assertEqual(last.stdout, through.stdout)
             for name in ("checkpoint.h5", "rings.csv", "heap.svg", "movie.jsonl"):
                 self.assertEqual((whole / name).read_bytes(), (killed / name).read_bytes(), name)
+            # Once more: all is over, and stays as it is.
+            again = run(*self.small(dim, "--out", killed))
+            self.assertEqual((again.returncode, again.stdout), (0, through.stdout))
+            for name in ("rings.csv", "heap.svg", "movie.jsonl"):
+                self.assertEqual((whole / name).read_bytes(), (killed / name).read_bytes(), name)
 
     def test_the_ground_carries_the_heap(self):
         result = run(*self.small(3, "--out", self.path / "heap"))
@@ -81,7 +86,7 @@ class Experiments(unittest.TestCase):
     def test_numbers_out_of_range_are_refused_and_nothing_is_written(self):
         out = self.path / "none"
         for option, value in (("--dim", 4), ("--dim", 2.5), ("--count", 1), ("--radius", 0), ("--mu", -1),
-                              ("--rate", "fast"), ("--step", 0), ("--rest", "nan"), ("--rain", 2), ("--frames", -1),
+                              ("--rate", "fast"), ("--step", 0), ("--rest", "nan"), ("--rain", 2), ("--rain", 0.5), ("--count", 20.5), ("--frames", -1),
                               ("--seed", -1), ("--save-every", -1)):
             self.assert_sentence(run("--out", out, option, value), option, "must be")
             self.assertFalse(out.exists())

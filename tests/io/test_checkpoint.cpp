@@ -2,6 +2,7 @@
 // A run with stops makes the bits of one without; a file is whole or refused.
 #include <talus/io/checkpoint/checkpoint.hpp>
 #include <talus/io/write_file.hpp>
+#include <talus/measure/energy_ledger.hpp>
 #include <talus/sample/random.hpp>
 #include <talus/solver/solver_registry.hpp>
 #include <talus/stepping/simulation.hpp>
@@ -189,6 +190,29 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_solver_goes_on_with_the_same_bits, D, dimens
         }
         BOOST_TEST(same_bits(numbers(next.sim), numbers(through.sim)), name.name);
     }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(books_and_summaries_are_carried_along, D, dimensions) {
+    constexpr int Dim = D::value;
+    Yard<Dim> yard;
+    talus::EnergyLedger<Dim> books(yard.sim.system().bodies, yard.sim.system().gravity);
+    const auto go = [](auto& sim, auto& ledger, auto& summary) {
+        for (int k = 0; k < 30; ++k) {
+            sim.step();
+            ledger.record(sim.data(), sim.system().bodies);
+            summary.record(sim.system(), sim.data());
+        }
+    };
+    go(yard.sim, books, yard.summary);
+    Yard<Dim> next;
+    next.sim.restore(yard.sim.state());
+    auto same = talus::from_record<talus::EnergyLedger<Dim>>(talus::record_of(books));
+    auto summary = talus::from_record<talus::RunSummary>(talus::record_of(yard.summary));
+    go(yard.sim, books, yard.summary);
+    go(next.sim, same, summary);
+    BOOST_TEST((talus::record_of(same) == talus::record_of(books)));
+    BOOST_TEST(to_string(summary) == to_string(yard.summary));
+    BOOST_TEST(books.closure() < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(a_state_can_be_gone_back_to) {

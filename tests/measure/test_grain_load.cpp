@@ -29,6 +29,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_floor_gives_what_the_stack_weighs, D, dimensio
     BOOST_CHECK_EQUAL(load[0], 5.0);
     BOOST_CHECK_EQUAL(load[1], 7.0);
     BOOST_CHECK_EQUAL(load[2], 2.0);
+    BOOST_CHECK_THROW(talus::grain_load<Dim>(j, r, 2, load), talus::input_error);  // 2 has gone
     const V up = talus::impulse_from<Dim>(j, r, [](std::size_t i) { return i == 0; });
     BOOST_CHECK_EQUAL(up, V(5.0 * V::Unit(Dim - 1)));
 }

@@ -73,6 +73,34 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(balls_press_where_they_stand, D, dimensions) {
     BOOST_TEST(same.records() == 50);
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(the_point_is_of_the_ground_in_whatever_order, D, dimensions) {
+    constexpr int Dim = D::value;
+    using V = talus::Vector<Dim>;
+    // A grain has rolled on since it touched the ground, just inside the first ring.
+    for (const bool ground_first : {true, false}) {
+        talus::Bodies<Dim> bodies;
+        const auto add_grain = [&] {
+            return bodies.add({1.0, talus::AngularVector<Dim>::Constant(1.0)},
+                              {at<Dim>(0.6, 0.1), {}});
+        };
+        const talus::BodyIndex first = ground_first ? bodies.add_obstacle({}) : add_grain();
+        const talus::BodyIndex second = ground_first ? add_grain() : bodies.add_obstacle({});
+        talus::ContactJacobian<Dim> jacobian;
+        jacobian.resize(1);
+        jacobian.a = {first};
+        jacobian.b = {second};
+        const V of_ground = at<Dim>(0.49, 0.0), of_grain = at<Dim>(0.0, -0.1);
+        jacobian.arm_a[0] = ground_first ? of_ground : of_grain;
+        jacobian.arm_b[0] = ground_first ? of_grain : of_ground;
+        const std::vector<V> forces{V((ground_first ? -9.81 : 9.81) * V::Unit(Dim - 1))};
+        talus::GroundPressure<Dim> ground(talus::Rings<Dim>(at<Dim>(0.0, 0.0), 0.5, 3));
+        ground.record(jacobian, forces, bodies,
+                      [&](std::size_t i) { return bodies.is_obstacle(i); });
+        BOOST_CHECK_CLOSE(ground.pressure(0) * ground.rings().area(0), 9.81, 1e-9);
+        BOOST_TEST(ground.pressure(1) == 0.0);
+    }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_cone_has_its_slope, D, dimensions) {
     constexpr int Dim = D::value;
     talus::Bodies<Dim> bodies;

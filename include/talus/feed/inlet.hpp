@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -49,13 +50,14 @@ struct InletParams {
 
 /// Adds bodies to a system while it moves, as an observer of its run:
 ///
-///     Inlet<3> inlet({.place = at_point<3>({0, 0, 1}), .shape = balls<3>(UniformRadii(4e-3,
-///     6e-3)),
+///     const UniformRadii radii(4e-3, 6e-3);
+///     Inlet<3> inlet({.place = at_point<3>({0, 0, 1}), .shape = balls<3>(radii),
 ///                     .rate = 200.0, .total = 14000});
 ///     const RunSummary run = sim.run(80.0, [&](auto&) { inlet.feed(sim.system(), sim.time()); });
 ///
 /// A body comes when it is due and there is room for it: it touches nothing and keeps the
-/// clearance. What finds no room stays due. The order of everything is fixed: same seed, same bits.
+/// clearance. What finds no room stays due, with its shape, so that the shapes that come follow
+/// their law however crowded the place is. The order of everything is fixed: same seed, same bits.
 /// Part of a checkpoint by `record_of(inlet)` and `restore`.
 template <int Dim, class ShapeType = AnyShape<Dim>>
 requires SpaceDimension<Dim>
@@ -88,11 +90,11 @@ class Inlet {
         const double flown = std::floor(params_.rate * (time - params_.begin) * (1.0 + 1e-13));
         const double most = static_cast<double>(params_.total);
         const auto scheduled =
-            static_cast<std::int64_t>(std::clamp(flown, 0.0, std::min(most, 9e18)));
+            static_cast<std::int64_t>(std::clamp(flown, 0.0, std::min(most, most_bodies)));
         return scheduled + owed_ - count_;
     }
     /// Lets more come, as soon as there is room: those that a sink took, to be used again.
-    void owe(std::int64_t bodies) { owed_ += bodies; }
+    void owe(std::size_t bodies) { owed_ += static_cast<std::int64_t>(bodies); }
 
     /// How far it is; what it was made of is said again by the program.
     void write(NumberRecord& out) const {
@@ -103,7 +105,7 @@ class Inlet {
     }
     void restore(const NumberRecord& record) {
         NumberRecordReader in(record);
-        constexpr std::int64_t most = std::int64_t{1} << 60;
+        constexpr auto most = static_cast<std::int64_t>(most_bodies);
         const Random random = Random::read(in), shapes = Random::read(in);
         const auto count = in.integer(0, most), owed = in.integer(0, most);
         in.require_end();
@@ -114,6 +116,8 @@ class Inlet {
     }
 
   private:
+    static constexpr double most_bodies = 1e18;  // so that sums of two are integers
+
     std::int64_t allowed() const {
         return params_.total > std::numeric_limits<std::int64_t>::max() - owed_
                    ? std::numeric_limits<std::int64_t>::max()

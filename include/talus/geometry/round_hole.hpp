@@ -15,8 +15,8 @@ namespace talus {
 /// plane, from an axis in space. A drum, a tube, a silo: a shape for obstacles, to be closed by
 /// half-spaces. Convex bodies touch it at vertices alone, so that it has no seams, however it
 /// turns. A step goes along the tangent: what is held against the wall at a speed v along it enters
-/// it by (h v)^2 / (2 R) in each step, h v^2 / (2 R) in a second, and loses as much of its speed; a
-/// smaller h, or a correction of positions (GapCorrection), where that counts.
+/// it by (h v)^2 / (2 R) in each step, h v^2 / (2 R) in a second, and loses the same share of its
+/// speed; a smaller h, or a correction of positions (GapCorrection), where that counts.
 template <int Dim>
 requires SpaceDimension<Dim>
 class RoundHole {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/number_record.hpp>
 #include <talus/dynamics/bodies.hpp>
 #include <talus/problem/contact_problem.hpp>
 
@@ -92,6 +93,25 @@ class EnergyLedger {
     double closure() const {
         const double scale = std::max({largest_, kinetic_start_, flows_.magnitude()});
         return scale > 0.0 ? std::abs(missing()) / scale : 0.0;
+    }
+
+    /// To be carried through a checkpoint.
+    void write(NumberRecord& out) const {
+        out.array(gravity_);
+        for (const double x :
+             {flows_.friction, flows_.restitution, flows_.walls, flows_.applied, flows_.gyroscopic,
+              flows_.correction, kinetic_, kinetic_start_, potential_, potential_start_, largest_})
+            out.real(x);
+    }
+    static EnergyLedger read(NumberRecordReader& in) {
+        EnergyLedger books;
+        books.gravity_ = in.array<Vector<Dim>>();
+        for (double* x : {&books.flows_.friction, &books.flows_.restitution, &books.flows_.walls,
+                          &books.flows_.applied, &books.flows_.gyroscopic, &books.flows_.correction,
+                          &books.kinetic_, &books.kinetic_start_, &books.potential_,
+                          &books.potential_start_, &books.largest_})
+            *x = in.real();
+        return books;
     }
 
   private:
