@@ -255,7 +255,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(groups_and_pairs_that_do_not_meet_pass_through, D,
     system.bodies.groups[balls[2]] = {.member = 2, .meets = 1 | 4};
     system.bodies.groups[balls[3]] = {.member = 2, .meets = 1 | 4};
     for (int k = 0; k < 30; ++k) sim.step();
-    const auto touch = [&](int i, int j) { return talus::touches(sim.data(), balls[i], balls[j]); };
+    const auto touch = [&](std::size_t i, std::size_t j) {
+        return talus::touches(sim.data(), balls[i], balls[j]);
+    };
     BOOST_TEST(!touch(0, 1));  // a pair ignored
     BOOST_TEST(touch(1, 2));   // group 1 meets group 2
     BOOST_TEST(!touch(2, 3));  // group 2 does not meet itself
