@@ -101,6 +101,7 @@ std::vector<talus::DrawnContact<Dim>> drawn_contacts(const Sim& sim) {
     std::vector<talus::DrawnContact<Dim>> contacts;
     const auto& bodies = sim.system().bodies;
     const auto& data = sim.data();
+    data.contacts.require_bodies(bodies.id);
     for (std::size_t c = 0; c < data.contact_count(); ++c) {
         const talus::Vector<Dim>& point = data.contacts.point[c];
         const auto end = [&](talus::BodyIndex body) {

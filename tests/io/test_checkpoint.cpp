@@ -110,6 +110,7 @@ class Yard {
     /// One step, and what comes and goes with it.
     void step() {
         sim.step();
+        summary.record(sim.system(), sim.data());
         if (sim.step_count() % 17 == 0) drop(random.uniform(0.1, 0.8), 0.8);
         if (sim.step_count() % 40 == 0) {
             const int lot = random.integer(0, 6);
@@ -118,7 +119,6 @@ class Yard {
                        i % 7 == static_cast<std::size_t>(lot);
             });
         }
-        summary.record(sim.system(), sim.data());
     }
 
     Sim sim;

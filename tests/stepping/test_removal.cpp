@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 // A world that loses bodies: names that stay, warm starts that stay, and the bits of a world in
 // which those that are gone never were.
+#include <talus/measure/contact_network.hpp>
+#include <talus/measure/cuts.hpp>
+#include <talus/measure/energy_ledger.hpp>
+#include <talus/measure/force_chains.hpp>
+#include <talus/measure/rings.hpp>
+#include <talus/measure/stress.hpp>
 #include <talus/stepping/equilibrium.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -157,6 +163,95 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_source_and_a_sink, D, dimensions) {
     for (std::size_t i = 1; i < system.bodies.count(); ++i)
         mean += system.bounding_radius()[i] / static_cast<double>(system.bodies.count() - 1);
     BOOST_CHECK_CLOSE(system.mean_bounding_radius(), mean, 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_reads_a_step_knows_whose_it_is, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = heap<Dim>(3, 3, law<Dim>(0.4), 2e-3);
+    BOOST_TEST(sim.run(0.3).certified());
+    auto& system = sim.system();
+    const auto& data = sim.data();
+    const auto& jacobian = data.problem.jacobian;
+    std::vector<talus::Vector<Dim>> forces;
+    talus::contact_forces<Dim>(jacobian, data.impulse, data.h, forces);
+    std::vector<talus::Matrix<Dim>> moments;
+    const auto chains = [&] {
+        moments.assign(system.bodies.count(), -talus::Matrix<Dim>::Identity());
+        const std::vector<double> volume(system.bodies.count(), 1.0);
+        return talus::force_chains<Dim>(system.bodies, data.contacts, data.impulse, moments,
+                                        volume);
+    };
+    const auto all = [&](talus::RunSummary& summary) {
+        summary.record(system, data);
+        (void)talus::contact_network<Dim>(system.bodies, data.contacts, data.impulse);
+        (void)chains();
+    };
+    talus::RunSummary before, after;
+    all(before);
+    // A body that is added, a ball or a wall in motion, had no part in the step.
+    system.add(talus::Ball<Dim>(0.05), 1000.0, {5.0 * talus::Vector<Dim>::Ones(), {}});
+    system.add_obstacle(talus::Ball<Dim>(0.05), talus::PrescribedMotion<Dim>::uniform(
+                                                    {9.0 * talus::Vector<Dim>::Ones(), {}},
+                                                    {500.0 * talus::Vector<Dim>::Ones(), {}}));
+    all(after);
+    BOOST_TEST(to_string(after) == to_string(before));
+    // One that is removed makes all later indices those of others.
+    const talus::BodyId gone = system.bodies.id[system.bodies.count() - 6];
+    system.remove(std::vector{gone});
+    const auto says_which = [&](const talus::input_error& error) {
+        return std::string(error.what()).find(std::to_string(gone.serial)) != std::string::npos;
+    };
+    talus::RunSummary refused;
+    BOOST_CHECK_EXCEPTION(refused.record(system, data), talus::input_error, says_which);
+    BOOST_TEST(refused.steps == 0);
+    BOOST_CHECK_EXCEPTION(
+        (void)talus::contact_network<Dim>(system.bodies, data.contacts, data.impulse),
+        talus::input_error, says_which);
+    BOOST_CHECK_EXCEPTION((void)chains(), talus::input_error, says_which);
+    // Where there are no ids, at least nothing is read that is not there.
+    system.remove_if([&](std::size_t i) { return i > 3; });
+    talus::ContactSet<Dim> by_hand = data.contacts;
+    by_hand.body.clear();
+    BOOST_CHECK_THROW((void)talus::contact_network<Dim>(system.bodies, by_hand, data.impulse),
+                      talus::input_error);
+    BOOST_CHECK_THROW(
+        talus::internal_moments<Dim>(jacobian, forces, system.bodies.count(), moments),
+        talus::input_error);
+    talus::GroundPressure<Dim> pressure(talus::Rings<Dim>(talus::Vector<Dim>::Zero(), 0.1, 3));
+    BOOST_CHECK_THROW(pressure.record(jacobian, forces, system.bodies, [](auto) { return true; }),
+                      talus::input_error);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(books_close_over_bodies_that_come_and_go, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = heap<Dim>(3, 3, law<Dim>(0.4), 2e-3);
+    auto& system = sim.system();
+    talus::EnergyLedger<Dim> books(system.bodies, system.gravity);
+    talus::Vector<Dim> place = talus::Vector<Dim>::Constant(0.1);
+    for (int k = 0; k < 200; ++k) {
+        sim.step();
+        books.record(sim.data(), system.bodies);
+        if (k % 20 == 7) {
+            place[Dim - 1] = 1.0 + 0.1 * k;
+            system.add(talus::Ball<Dim>(0.04), 1000.0, {place, {}},
+                       {-talus::Vector<Dim>::Unit(Dim - 1), {}});
+        }
+        if (k % 50 == 49)
+            system.remove_if(
+                [&](std::size_t i) { return !system.bodies.is_obstacle(i) && i % 6 == 3; });
+        if (k == 77) {
+            BOOST_CHECK_NO_THROW(books.record_exchange(system.bodies));  // nothing came: nothing
+        }
+        if (k % 20 == 7 || k % 50 == 49) {
+            BOOST_CHECK_THROW(talus::EnergyLedger<Dim>(books).record(sim.data(), system.bodies),
+                              talus::input_error);
+            books.record_exchange(system.bodies);
+        }
+    }
+    BOOST_TEST(std::abs(books.flows().exchange) > 1.0);
+    BOOST_TEST(books.closure() < 1e-12);
+    const auto same = talus::from_record<talus::EnergyLedger<Dim>>(talus::record_of(books));
+    BOOST_TEST(same.flows().exchange == books.flows().exchange);
 }
 
 BOOST_AUTO_TEST_CASE(what_throws_removes_nothing) {

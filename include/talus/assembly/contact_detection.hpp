@@ -41,6 +41,7 @@ class ContactDetection {
             found_ = true;
         }
         contacts.clear();
+        contacts.body = bodies.id;
         if (!motion.empty()) anticipated_.begin(bodies, motion, tolerance);
         for (const CandidatePair& pair : candidates_) {
             const auto a = static_cast<std::size_t>(pair.a);

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <talus/collision/contact_point.hpp>
+#include <talus/core/ids.hpp>
+#include <talus/core/input.hpp>
+#include <talus/core/per_body.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -18,14 +22,32 @@ struct ContactSet {
     std::vector<Vector<Dim>> normal;  ///< unit, from b towards a
     std::vector<double> gap;          ///< [m]
     std::vector<Vector<Dim>> slide;   ///< of a past b until they touch there [m]
+    /// Ids of the bodies that the keys name by their indices; empty for contacts made by hand.
+    PerBody<BodyId> body;
 
     std::size_t count() const { return key.size(); }
+    /// Throws input_error unless the keys' indices are those of these bodies still: bodies that
+    /// were removed since have moved them, bodies that were added do no harm. O(bodies + contacts).
+    void require_bodies(const PerBody<BodyId>& id) const {
+        const auto [ours, theirs] = std::mismatch(body.begin(), body.end(), id.begin(), id.end());
+        if (ours != body.end())
+            throw input_error(
+                detail::numbered("body id is", static_cast<std::size_t>(ours->serial),
+                                 ", but must be that of a body that was not removed after its "
+                                 "contacts were found: what reads them comes before the removal"));
+        for (const ContactKey& k : key)
+            if (k.a < 0 || static_cast<std::size_t>(std::max(k.a, k.b)) >= id.size())
+                detail::reject(
+                    "body of a contact", k.a < 0 ? k.a : std::max(k.a, k.b),
+                    detail::numbered("an index from 0 below", id.size(), ", the number of bodies"));
+    }
     void clear() {
         key.clear();
         point.clear();
         normal.clear();
         gap.clear();
         slide.clear();
+        body.clear();
     }
     void push_back(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& c) {
         key.push_back({a, b, c.feature});

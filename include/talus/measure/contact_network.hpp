@@ -55,11 +55,13 @@ struct ContactNetwork {
 /// Takes rattlers out of the bearing contacts, one after the other until none is left: what touched
 /// one of them may be one itself. The result does not depend on their order. `contacts` in the
 /// order of their keys, r the impulses, normal first [N s]. O(bodies + contacts). Throws
-/// input_error unless there is one impulse per contact, and for a negative `least_impulse`.
+/// input_error unless there is one impulse per contact and their bodies are there, and for a
+/// negative `least_impulse`.
 template <int Dim>
 ContactNetwork contact_network(const Bodies<Dim>& bodies, const ContactSet<Dim>& contacts,
                                std::span<const Vector<Dim>> r, ContactNetworkParams params = {}) {
     require_count("impulses", r.size(), "contacts", contacts.count());
+    contacts.require_bodies(bodies.id);
     require_non_negative("least_impulse", params.least_impulse);
     const std::size_t n = bodies.count();
     ContactNetwork network;

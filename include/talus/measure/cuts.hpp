@@ -127,11 +127,12 @@ struct CutResultant {
 /// obstacle, which has no centre that means anything, the contact point stands for it. `forces` are
 /// those of `contact_forces`: world axes, on body a [N]. Bodies themselves are not cut: over a
 /// surface of few contacts the result scatters by the force of one. O(contacts). Throws input_error
-/// unless there is one force per contact.
+/// unless there is one force per contact, and for contacts of bodies beyond the count.
 template <int Dim, CutSurface<Dim> Surface>
 CutResultant<Dim> cut_resultant(const Bodies<Dim>& bodies, const ContactJacobian<Dim>& jacobian,
                                 std::span<const Vector<Dim>> forces, const Surface& surface) {
     require_count("forces", forces.size(), "contacts", jacobian.contact_count());
+    jacobian.require_bodies(bodies.count());
     CutResultant<Dim> result;
     for (std::size_t c = 0; c < forces.size(); ++c) {
         const auto a = static_cast<std::size_t>(jacobian.a[c]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/input.hpp>
 #include <talus/core/number_record.hpp>
 #include <talus/dynamics/bodies.hpp>
 #include <talus/problem/contact_problem.hpp>
@@ -36,13 +37,14 @@ struct EnergyFlows {
     double applied = 0.0;      ///< forces other than gravity
     double gyroscopic = 0.0;   ///< error of the gyroscopic term (zero for balls and in the plane)
     double correction = 0.0;   ///< position correction against gravity
+    double exchange = 0.0;     ///< bodies that came, less those that went
 
     double sum() const {
-        return friction + restitution + walls + applied + gyroscopic + correction;
+        return friction + restitution + walls + applied + gyroscopic + correction + exchange;
     }
     double magnitude() const {
         return std::abs(friction) + std::abs(restitution) + std::abs(walls) + std::abs(applied) +
-               std::abs(gyroscopic) + std::abs(correction);
+               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange);
     }
 };
 
@@ -67,15 +69,24 @@ class EnergyLedger {
     }
 
     /// Books a step. `step` offers what `StepData` has: h, begin, end, applied, gyroscopic,
-    /// problem, impulse, correction_work; `bodies` is the state at the end of the step.
+    /// problem, impulse, contacts, correction_work; `bodies` is the state at the end of the step.
+    /// Throws input_error if bodies have come or gone since the step.
     template <class Step>
     void record(const Step& step, const Bodies<Dim>& bodies) {
+        require_count("bodies", bodies.count(), "bodies of the step", step.begin.size());
+        if constexpr (requires { step.contacts.require_bodies(bodies.id); })
+            step.contacts.require_bodies(bodies.id);
         record_contacts(step);
         record_forces(step, bodies);
         flows_.correction += step.correction_work;
-        kinetic_ = kinetic_energy(bodies);
-        potential_ = potential_energy(bodies, gravity_);
-        largest_ = std::max(largest_, kinetic_ + std::abs(potential_ - potential_start_));
+        look_at(bodies);
+    }
+    /// Books bodies that came or went since the last record, or were changed otherwise between two
+    /// steps: what the energy of the state is more now. O(bodies).
+    void record_exchange(const Bodies<Dim>& bodies) {
+        const double before = kinetic_ + potential_;
+        look_at(bodies);
+        flows_.exchange += kinetic_ + potential_ - before;
     }
 
     double kinetic() const { return kinetic_; }      ///< now [J]
@@ -98,9 +109,9 @@ class EnergyLedger {
     /// To be carried through a checkpoint.
     void write(NumberRecord& out) const {
         out.array(gravity_);
-        for (const double x :
-             {flows_.friction, flows_.restitution, flows_.walls, flows_.applied, flows_.gyroscopic,
-              flows_.correction, kinetic_, kinetic_start_, potential_, potential_start_, largest_})
+        for (const double x : {flows_.friction, flows_.restitution, flows_.walls, flows_.applied,
+                               flows_.gyroscopic, flows_.correction, flows_.exchange, kinetic_,
+                               kinetic_start_, potential_, potential_start_, largest_})
             out.real(x);
     }
     static EnergyLedger read(NumberRecordReader& in) {
@@ -108,13 +119,18 @@ class EnergyLedger {
         books.gravity_ = in.array<Vector<Dim>>();
         for (double* x : {&books.flows_.friction, &books.flows_.restitution, &books.flows_.walls,
                           &books.flows_.applied, &books.flows_.gyroscopic, &books.flows_.correction,
-                          &books.kinetic_, &books.kinetic_start_, &books.potential_,
-                          &books.potential_start_, &books.largest_})
+                          &books.flows_.exchange, &books.kinetic_, &books.kinetic_start_,
+                          &books.potential_, &books.potential_start_, &books.largest_})
             *x = in.real();
         return books;
     }
 
   private:
+    void look_at(const Bodies<Dim>& bodies) {
+        kinetic_ = kinetic_energy(bodies);
+        potential_ = potential_energy(bodies, gravity_);
+        largest_ = std::max(largest_, kinetic_ + std::abs(potential_ - potential_start_));
+    }
     template <class Step>
     void record_contacts(const Step& step) {
         const ContactJacobian<Dim>& j = step.problem.jacobian;

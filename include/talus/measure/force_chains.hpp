@@ -65,14 +65,15 @@ struct ChainLinks {
 /// Of several on one side of a grain the best aligned counts, and only where it chooses this grain
 /// as well, so that chains do not branch; a closed one begins at its least grain. `moments` are the
 /// internal moments of the bodies [N m] (internal_moments, compression negative), `volume` theirs
-/// [m^Dim]. O(bodies + contacts). Throws input_error for arrays of other lengths, and for an angle
-/// out of range.
+/// [m^Dim]. O(bodies + contacts). Throws input_error for arrays of other lengths, for bodies
+/// that are gone, and for an angle out of range.
 template <int Dim>
 ForceChains force_chains(const Bodies<Dim>& bodies, const ContactSet<Dim>& contacts,
                          std::span<const Vector<Dim>> r, std::span<const Matrix<Dim>> moments,
                          std::span<const double> volume, ForceChainParams params = {}) {
     const std::size_t n = bodies.count();
     require_count("impulses", r.size(), "contacts", contacts.count());
+    contacts.require_bodies(bodies.id);
     require_count("internal moments", moments.size(), "bodies", n);
     require_count("volumes", volume.size(), "bodies", n);
     if (!(params.angle > 0.0 && params.angle < 0.5 * std::numbers::pi))

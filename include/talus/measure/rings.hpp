@@ -72,6 +72,8 @@ class GroundPressure {
     template <class IsGround>
     void record(const ContactJacobian<Dim>& jacobian, std::span<const Vector<Dim>> forces,
                 const Bodies<Dim>& bodies, IsGround&& is_ground) {
+        require_count("forces", forces.size(), "contacts", jacobian.contact_count());
+        jacobian.require_bodies(bodies.count());
         for (std::size_t c = 0; c < forces.size(); ++c) {
             const auto a = static_cast<std::size_t>(jacobian.a[c]);
             const auto b = static_cast<std::size_t>(jacobian.b[c]);

@@ -25,10 +25,12 @@ void contact_forces(const ContactJacobian<Dim>& jacobian, std::span<const Vector
 /// [N m] ([Moreau1997]; Love-Weber). For a body in equilibrium under its contact forces alone it is
 /// symmetric and the same about any point; for one that moves, x_G takes the inertia force out and
 /// M - M^T is the torque. The mean stress of a set of bodies is the sum of their moments over the
-/// volume of the set; compression is negative.
+/// volume of the set; compression is negative. Throws input_error for a contact of a body beyond
+/// the count.
 template <int Dim>
 void internal_moments(const ContactJacobian<Dim>& jacobian, std::span<const Vector<Dim>> forces,
                       std::size_t body_count, std::vector<Matrix<Dim>>& moments) {
+    jacobian.require_bodies(body_count);
     moments.assign(body_count, Matrix<Dim>::Zero());
     for (std::size_t c = 0; c < forces.size(); ++c) {
         moments[static_cast<std::size_t>(jacobian.a[c])] +=

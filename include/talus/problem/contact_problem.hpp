@@ -3,9 +3,11 @@
 
 #include <talus/core/cross.hpp>
 #include <talus/core/ids.hpp>
+#include <talus/core/input.hpp>
 #include <talus/core/room.hpp>
 #include <talus/law/concepts.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -30,6 +32,14 @@ struct ContactJacobian {
     std::vector<double> held;
 
     std::size_t contact_count() const { return a.size(); }
+    /// Throws input_error unless all contacts are of bodies with an index below `count`.
+    void require_bodies(std::size_t count) const {
+        for (std::size_t c = 0; c < contact_count(); ++c)
+            if (const BodyIndex last = std::max(a[c], b[c]);
+                static_cast<std::size_t>(last) >= count)
+                detail::reject("body of a contact", last,
+                               detail::numbered("an index below", count, ", the number of bodies"));
+    }
     /// For n contacts, with some to spare.
     void make_room(std::size_t n) {
         detail::make_room(a, n);

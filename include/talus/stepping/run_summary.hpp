@@ -59,9 +59,11 @@ struct RunSummary {
         return missed == 0 && overlap.value <= deepest_overlap && turned_too_far == 0;
     }
 
-    /// Notes a step. O(bodies + contacts).
+    /// Notes a step. O(bodies + contacts). Throws input_error if bodies were removed since the
+    /// step; those that were added are left out.
     template <int Dim, class Law, class ShapeType>
     void record(const System<Dim, Law, ShapeType>& system, const StepData<Dim, Law>& data) {
+        data.contacts.require_bodies(system.bodies.id);
         ++steps;
         if (data.report.status != SolveStatus::converged)
             ++missed;
@@ -132,12 +134,13 @@ struct RunSummary {
             else if (one.beyond > second.beyond)
                 second = one;
         };
-        for (std::size_t i = 0; i < system.bodies.count(); ++i) {
+        for (std::size_t i = 0; i < data.end.size(); ++i) {
             if (system.bodies.is_obstacle(i)) continue;
             compare(i, data.h * data.end[i].linear, data.h * data.end[i].angular);
         }
         // Where they went, not by what their motions say of it: they may have jumped.
         for (const auto& [body, motion] : system.obstacles) {
+            if (static_cast<std::size_t>(body) >= data.end.size()) continue;
             const auto way = motion.displacement(data.t_begin, data.t_end());
             compare(static_cast<std::size_t>(body), way.linear, way.angular);
         }
