@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/column.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
@@ -133,7 +134,7 @@ void broad_phase(benchmark::State& state) {
         boxes.push_back({low, low + Vec::Constant(d)});
     }
     talus::HierarchicalGrid<3> grid;
-    std::vector<talus::CandidatePair> pairs;
+    talus::Column<talus::CandidatePair> pairs;
     for (auto _ : state) grid.find_pairs(boxes, talus::NoObstacles{}, pairs);
     state.counters["pairs_per_body"] = static_cast<double>(pairs.size()) / static_cast<double>(n);
     state.counters["s/body"] =

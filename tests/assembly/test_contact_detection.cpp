@@ -2,6 +2,7 @@
 // What a broad phase of one's own may say, and what is refused in its name.
 #include <talus/assembly/contact_detection.hpp>
 #include <talus/collision/brute_force.hpp>
+#include <talus/core/column.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -15,10 +16,10 @@ BOOST_AUTO_TEST_SUITE(assembly_contact_detection)
 
 /// Says what it is told to say.
 struct Told {
-    static inline std::vector<talus::CandidatePair> pairs;
+    static inline talus::Column<talus::CandidatePair> pairs;
     template <int Dim, class IsObstacle>
     void find_pairs(std::span<const talus::Aabb<Dim>>, const IsObstacle&,
-                    std::vector<talus::CandidatePair>& found) const {
+                    talus::Column<talus::CandidatePair>& found) const {
         found = pairs;
     }
 };
@@ -43,7 +44,7 @@ struct Row {
         }
     }
     /// The complaint about pairs, or nothing.
-    std::string said(std::vector<talus::CandidatePair> pairs) {
+    std::string said(talus::Column<talus::CandidatePair> pairs) {
         Told::pairs = std::move(pairs);
         try {
             detection.detect(bodies, shapes, 1, radius, 0.1, reach, {}, 0.0, {}, contacts);
@@ -56,7 +57,7 @@ struct Row {
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(pairs_that_are_none_are_refused_by_name, D, dimensions) {
     constexpr int Dim = D::value;
-    const auto refused = [](std::vector<talus::CandidatePair> pairs, const std::string& beginning,
+    const auto refused = [](talus::Column<talus::CandidatePair> pairs, const std::string& beginning,
                             const std::string& range) {
         Row<D::value> row;
         // Twice: what was refused is not taken for found.

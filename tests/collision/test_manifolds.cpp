@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -15,7 +16,7 @@ const double rounding = 1e-13;  // a few dozen operations on numbers of order on
 const double lateral = 1e-6;    // over NarrowPhaseTolerance::lateral, of bodies of size one
 
 template <int Dim>
-using Contacts = std::vector<talus::ContactPoint<Dim>>;
+using Contacts = talus::Column<talus::ContactPoint<Dim>>;
 
 template <int Dim>
 Contacts<Dim> contacts(const talus::AnyShape<Dim>& a, const talus::Pose<Dim>& at_a,

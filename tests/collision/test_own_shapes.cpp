@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -53,14 +54,14 @@ namespace talus {
 template <int Dim>
 struct PairContacts<Dim, Silent<Dim>, Ball<Dim>> {
     static void append(const Silent<Dim>&, const Pose<Dim>&, const Ball<Dim>&, const Pose<Dim>&,
-                       double, std::vector<ContactPoint<Dim>>& out) {
+                       double, Column<ContactPoint<Dim>>& out) {
         out.push_back({Vector<Dim>::Zero(), Vector<Dim>::Unit(0), -1.0, {}});
     }
 };
 template <int Dim>
 struct PairContacts<Dim, Ghost<Dim>, Ball<Dim>> {
     static void append(const Ghost<Dim>&, const Pose<Dim>&, const Ball<Dim>& ball, const Pose<Dim>&,
-                       double, std::vector<ContactPoint<Dim>>& out) {
+                       double, Column<ContactPoint<Dim>>& out) {
         out.push_back({Vector<Dim>::Zero(), Vector<Dim>::Unit(0), -ball.radius(), {}});
     }
 };
@@ -82,7 +83,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(round_ellipsoids_act_like_balls, D, dimensions) {
     for (int trial = 0; trial < 50; ++trial) {
         const auto at_a = random_geometry::pose<Dim>(g, 2.0),
                    at_b = random_geometry::pose<Dim>(g, 2.0);
-        std::vector<talus::ContactPoint<Dim>> found, exact;
+        talus::Column<talus::ContactPoint<Dim>> found, exact;
         talus::contact_points<Dim>(a, at_a, b, at_b, 1.0, found);
         talus::contact_points<Dim>(talus::Ball<Dim>(1.0), at_a, talus::Ball<Dim>(0.5), at_b, 1.0,
                                    exact);
@@ -107,7 +108,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(ellipsoids_touch_where_their_normals_are_opposite,
         const Ellipsoid<Dim> a{p}, b{q};
         const auto at_a = random_geometry::pose<Dim>(g, 1.0),
                    at_b = random_geometry::pose<Dim>(g, 1.0);
-        std::vector<talus::ContactPoint<Dim>> found;
+        talus::Column<talus::ContactPoint<Dim>> found;
         talus::contact_points<Dim>(a, at_a, b, at_b, 3.0, found);
         BOOST_REQUIRE_EQUAL(found.size(), 1u);
         const auto& c = found[0];
@@ -138,7 +139,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(an_ellipsoid_rests_on_floors_and_talus_shapes, D, 
         talus::HalfSpace<Dim>(talus::Vector<Dim>::Unit(Dim - 1), 0.5),
         talus::Box<Dim>(talus::Vector<Dim>::Constant(0.5)), talus::Ball<Dim>(0.5)};
     for (const auto& base : bases) {
-        std::vector<talus::ContactPoint<Dim>> found;
+        talus::Column<talus::ContactPoint<Dim>> found;
         talus::contact_points<Dim>(egg, at, base, talus::Pose<Dim>{}, 0.0, found);
         talus::contact_points<Dim>(base, talus::Pose<Dim>{}, egg, at, 0.0, found);
         BOOST_REQUIRE_EQUAL(found.size(), 2u);
@@ -153,7 +154,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_routine_of_ones_own_is_preferred_in_either_order
     constexpr int Dim = D::value;
     const Silent<Dim> own{{talus::Vector<Dim>::Constant(1.0)}};
     const talus::AnyShape<Dim> ball = talus::Ball<Dim>(1.0);
-    std::vector<talus::ContactPoint<Dim>> found;
+    talus::Column<talus::ContactPoint<Dim>> found;
     talus::contact_points<Dim>(own, talus::Pose<Dim>{}, ball, talus::Pose<Dim>{}, 0.0, found);
     talus::contact_points<Dim>(ball, talus::Pose<Dim>{}, own, talus::Pose<Dim>{}, 0.0, found);
     BOOST_REQUIRE_EQUAL(found.size(), 2u);
@@ -179,7 +180,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_compound_of_own_shapes_stands_on_its_children, D
     const talus::HalfSpace<Dim> floor(up);
     const talus::AnyShapeOf<Dim, talus::CompoundOf<Dim, Child>, talus::HalfSpace<Dim>> held = clump;
 
-    std::vector<talus::ContactPoint<Dim>> found;
+    talus::Column<talus::ContactPoint<Dim>> found;
     talus::contact_points<Dim>(held, talus::Pose<Dim>{}, floor, talus::Pose<Dim>{}, 0.0, found);
     BOOST_REQUIRE_EQUAL(found.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -202,7 +203,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_compound_of_own_shapes_stands_on_its_children, D
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_child_meets_by_its_own_routine, D, dimensions) {
     constexpr int Dim = D::value;
     const talus::CompoundOf<Dim, Ghost<Dim>> pair({{Ghost<Dim>{}, {}}, {Ghost<Dim>{}, {}}});
-    std::vector<talus::ContactPoint<Dim>> found;
+    talus::Column<talus::ContactPoint<Dim>> found;
     talus::contact_points<Dim>(pair, talus::Pose<Dim>{}, talus::Ball<Dim>(0.7), talus::Pose<Dim>{},
                                0.0, found);
     talus::contact_points<Dim>(talus::Ball<Dim>(0.7), talus::Pose<Dim>{}, pair, talus::Pose<Dim>{},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Which side two boxes meet by, and when, against what can be told by hand.
 #include <talus/collision/passage.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/box.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -18,7 +19,7 @@ struct Flight {
     static Vec at(double x, double y) { return in_plane<Dim>(x, y); }
     static constexpr double half = 0.1, reach = 0.3;
 
-    std::vector<talus::ContactPoint<Dim>> contacts;
+    talus::Column<talus::ContactPoint<Dim>> contacts;
     talus::Meeting meeting;
 
     /// Of a cube from a place with an offset from another of the same size.
@@ -28,7 +29,7 @@ struct Flight {
         talus::AngularVector<Dim> angular = talus::AngularVector<Dim>::Zero();
         angular[0] = turn;
         const talus::MovingShape<Dim> a{view, {offset, {}}, {way, angular}}, b{view, {}, {}};
-        std::vector<talus::ContactPoint<Dim>> present, near;
+        talus::Column<talus::ContactPoint<Dim>> present, near;
         talus::contact_points<Dim>(cube, a.pose, cube, b.pose, reach, present);
         BOOST_TEST_REQUIRE(!present.empty());
         meeting =

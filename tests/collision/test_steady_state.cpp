@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -20,7 +21,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_repeated_query_allocates_nothing_and_repeats_its
     shapes.push_back(talus::HalfSpace<Dim>(talus::Vector<Dim>::Unit(0)));
     shapes.push_back(talus::Compound<Dim>(
         {{talus::Ball<Dim>(0.5), {}}, {talus::Box<Dim>(talus::Vector<Dim>::Constant(0.4)), {}}}));
-    std::vector<talus::ContactPoint<Dim>> out;
+    talus::Column<talus::ContactPoint<Dim>> out;
     for (int trial = 0; trial < 20; ++trial)
         for (const auto& a : shapes)
             for (const auto& b : shapes) {

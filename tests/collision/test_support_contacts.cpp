@@ -2,6 +2,7 @@
 // Shapes of one's own, known by support mapping alone, against faces and sides far wider than they
 // are: where the supports along the normal are corners far from the contact.
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -57,7 +58,7 @@ double gap_accuracy(double width, double r) { return 2e-10 * r + 1e-14 * width; 
 template <int Dim, class A, class B>
 talus::ContactPoint<Dim> contact(const A& a, const talus::Pose<Dim>& at_a, const B& b,
                                  const talus::Pose<Dim>& at_b, double margin) {
-    std::vector<talus::ContactPoint<Dim>> found;
+    talus::Column<talus::ContactPoint<Dim>> found;
     talus::contact_points<Dim>(a, at_a, b, at_b, margin, found);
     BOOST_REQUIRE_EQUAL(found.size(), 1u);
     return found[0];
@@ -68,7 +69,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_margin_below_zero_keeps_what_is_deeper, D, dimen
     constexpr int Dim = D::value;
     const auto shift = 0.12 * talus::Vector<Dim>::Unit(0);
     for (const double margin : {-0.05, -0.1}) {
-        std::vector<talus::ContactPoint<Dim>> found, exact;
+        talus::Column<talus::ContactPoint<Dim>> found, exact;
         talus::contact_points<Dim>(Bead<Dim>{0.1}, {}, Bead<Dim>{0.1}, {shift, {}}, margin, found);
         talus::contact_points<Dim>(talus::Ball<Dim>{0.1}, {}, talus::Ball<Dim>{0.1}, {shift, {}},
                                    margin, exact);

@@ -2,6 +2,7 @@
 // Round holes: contacts against the points of a body that are farthest out, and a ball that swings
 // in a hollow, against closed forms.
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 #include <talus/stepping/simulation.hpp>
 
@@ -41,7 +42,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(bodies_touch_a_hole_where_they_are_farthest_out, D
         const talus::Pose<Dim> at = random_geometry::pose<Dim>(g, 1.0);
         const talus::Pose<Dim> wall = random_geometry::pose<Dim>(g, 0.3);
         const talus::AnyShape<Dim> outside = hole<Dim>(1.5);
-        std::vector<talus::ContactPoint<Dim>> out, mirrored;
+        talus::Column<talus::ContactPoint<Dim>> out, mirrored;
         talus::contact_points<Dim>(body, at, outside, wall, 10.0, out);
         talus::contact_points<Dim>(outside, wall, body, at, 10.0, mirrored);
         BOOST_REQUIRE(!out.empty());
@@ -101,7 +102,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_of_ones_own_touches_a_hole_on_both_sides, 
     }();
     for (const double off : {0.0, 0.005, -0.005}) {
         const talus::Pose<Dim> pose{V(off * V::Unit(0)), {}};
-        std::vector<talus::ContactPoint<Dim>> out;
+        talus::Column<talus::ContactPoint<Dim>> out;
         talus::contact_points<Dim>(long_one, pose, round, talus::Pose<Dim>{}, 0.1, out);
         BOOST_REQUIRE(out.size() == 2u);
         BOOST_TEST((out[0].feature != out[1].feature));
@@ -111,7 +112,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_of_ones_own_touches_a_hole_on_both_sides, 
         BOOST_CHECK_SMALL(left - (0.02 + off), 1e-9);
     }
     // What touches at one end alone has one contact within a smaller margin.
-    std::vector<talus::ContactPoint<Dim>> out;
+    talus::Column<talus::ContactPoint<Dim>> out;
     talus::contact_points<Dim>(long_one, {V(0.015 * V::Unit(0)), {}}, round, talus::Pose<Dim>{},
                                0.01, out);
     BOOST_TEST(out.size() == 1u);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/brute_force.hpp>
+#include <talus/core/column.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -31,8 +32,8 @@ class BroadPhaseTester {
     using Box = talus::Aabb<Dim>;
     using Vec = talus::Vector<Dim>;
 
-    static std::vector<talus::CandidatePair> definition(const std::vector<Box>& boxes) {
-        std::vector<talus::CandidatePair> pairs;
+    static talus::Column<talus::CandidatePair> definition(const std::vector<Box>& boxes) {
+        talus::Column<talus::CandidatePair> pairs;
         for (std::size_t a = 0; a < boxes.size(); ++a)
             for (std::size_t b = a + 1; b < boxes.size(); ++b) {
                 bool overlap = !(is_obstacle(a) && is_obstacle(b));
@@ -118,7 +119,7 @@ class BroadPhaseTester {
     }
 
     Broad broad_phase_;
-    std::vector<talus::CandidatePair> pairs_;
+    talus::Column<talus::CandidatePair> pairs_;
     RandomBlocks random_;
 };
 

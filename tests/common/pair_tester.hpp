@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -17,7 +18,7 @@ template <int Dim>
 class PairTester {
   public:
     using Shape = talus::AnyShape<Dim>;
-    using Contacts = std::vector<talus::ContactPoint<Dim>>;
+    using Contacts = talus::Column<talus::ContactPoint<Dim>>;
     using Vector = talus::Vector<Dim>;
     using Pose = talus::Pose<Dim>;
 

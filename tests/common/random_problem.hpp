@@ -74,9 +74,7 @@ talus::ContactProblem<Dim, Law> in_other_units(talus::ContactProblem<Dim, Law> p
 template <int Dim, class Law>
 talus::ContactProblem<Dim, Law> twice(const talus::ContactProblem<Dim, Law>& p) {
     auto q = p;
-    const auto append = [](auto& to, const auto& from) {
-        to.insert(to.end(), from.begin(), from.end());
-    };
+    const auto append = [](auto& to, const auto& from) { to.append(std::span(from)); };
     append(q.inverse_mass.linear, p.inverse_mass.linear);
     append(q.inverse_mass.angular, p.inverse_mass.angular);
     append(q.jacobian.a, p.jacobian.a);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/collision/brute_force.hpp>
 #include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/column.hpp>
 
 #include <span>
 #include <vector>
@@ -10,15 +11,15 @@ namespace collision_concepts {
 /// The least a broad phase may be.
 struct BroadPhaseArchetype {
     void find_pairs(std::span<const talus::Aabb<3>>, talus::NoObstacles,
-                    std::vector<talus::CandidatePair>&) {}
+                    talus::Column<talus::CandidatePair>&) {}
 };
 /// Does not ask who is an obstacle.
 struct BlindToObstacles {
-    void find_pairs(std::span<const talus::Aabb<3>>, std::vector<talus::CandidatePair>&) {}
+    void find_pairs(std::span<const talus::Aabb<3>>, talus::Column<talus::CandidatePair>&) {}
 };
 /// Would return pairs anew in each step.
 struct ReturnsPairs {
-    std::vector<talus::CandidatePair> find_pairs(std::span<const talus::Aabb<3>>) { return {}; }
+    talus::Column<talus::CandidatePair> find_pairs(std::span<const talus::Aabb<3>>) { return {}; }
 };
 
 static_assert(talus::BroadPhase<BroadPhaseArchetype, 3>);

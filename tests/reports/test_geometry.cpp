@@ -2,6 +2,7 @@
 // Questions to the narrow phase that other libraries were reported to answer wrongly. Where talus'
 // answer is not a closed form it is compared with Minkowski, which tries everything.
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -24,9 +25,10 @@ using Pose3 = talus::Pose<3>;
 constexpr double rounding = 1e-15;
 
 template <int Dim, class A, class B>
-std::vector<talus::ContactPoint<Dim>> contacts(const A& a, const talus::Pose<Dim>& at_a, const B& b,
-                                               const talus::Pose<Dim>& at_b, double margin) {
-    std::vector<talus::ContactPoint<Dim>> found;
+talus::Column<talus::ContactPoint<Dim>> contacts(const A& a, const talus::Pose<Dim>& at_a,
+                                                 const B& b, const talus::Pose<Dim>& at_b,
+                                                 double margin) {
+    talus::Column<talus::ContactPoint<Dim>> found;
     talus::contact_points<Dim>(a, at_a, b, at_b, margin, found);
     for (const auto& c : found) {
         BOOST_CHECK_CLOSE(c.normal.norm(), 1.0, 1e-12);
@@ -37,7 +39,7 @@ std::vector<talus::ContactPoint<Dim>> contacts(const A& a, const talus::Pose<Dim
 
 /// The least gap, which is the signed distance; NaN if there is no contact.
 template <int Dim>
-double least_gap(const std::vector<talus::ContactPoint<Dim>>& found) {
+double least_gap(const talus::Column<talus::ContactPoint<Dim>>& found) {
     if (found.empty()) return std::numeric_limits<double>::quiet_NaN();
     return std::ranges::min_element(found, {}, [](const auto& c) { return c.gap; })->gap;
 }

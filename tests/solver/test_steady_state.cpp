@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/column.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
 #include "common/allocation_counter.hpp"
@@ -37,7 +38,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(broad_phase_of_the_same_scene_does_not_allocate, D
         boxes.push_back({low, low + random.log_uniform(0.05, 1.0) * Vec::Ones()});
     }
     talus::HierarchicalGrid<D::value> grid;
-    std::vector<talus::CandidatePair> pairs;
+    talus::Column<talus::CandidatePair> pairs;
     grid.find_pairs(boxes, talus::NoObstacles{}, pairs);
     const long before = allocation_count;
     grid.find_pairs(boxes, talus::NoObstacles{}, pairs);

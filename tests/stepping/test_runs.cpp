@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Whole runs of small heaps: what must hold in each of them, whatever the grains do.
+#include <talus/core/column.hpp>
 #include <talus/measure/energy_ledger.hpp>
 #include <talus/measure/grain_load.hpp>
 #include <talus/measure/penetration.hpp>
@@ -283,7 +284,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_force_that_is_not_finite_is_named_and_nothing_mo
 struct EveryPair {
     template <int Dim, class IsObstacle>
     void find_pairs(std::span<const talus::Aabb<Dim>> boxes, const IsObstacle& is_obstacle,
-                    std::vector<talus::CandidatePair>& pairs) const {
+                    talus::Column<talus::CandidatePair>& pairs) const {
         pairs.clear();
         const auto n = static_cast<talus::BodyIndex>(boxes.size());
         for (talus::BodyIndex a = 0; a < n; ++a)

@@ -4,6 +4,7 @@
 #include <talus/assembly/contact_detection.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
 #include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/shape_view.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/moreau_midpoint.hpp>
@@ -165,7 +166,7 @@ class FaultyPairs {
   public:
     template <std::predicate<talus::BodyIndex> IsObstacle>
     void find_pairs(std::span<const talus::Aabb<Dim>> boxes, const IsObstacle& is_obstacle,
-                    std::vector<talus::CandidatePair>& pairs) {
+                    talus::Column<talus::CandidatePair>& pairs) {
         if (!Stale || bodies_ != boxes.size()) grid_.find_pairs(boxes, is_obstacle, first_);
         bodies_ = boxes.size();
         pairs = first_;
@@ -174,7 +175,7 @@ class FaultyPairs {
   private:
     talus::HierarchicalGrid<Dim> grid_;
     std::size_t bodies_ = 0;
-    std::vector<talus::CandidatePair> first_;
+    talus::Column<talus::CandidatePair> first_;
 };
 static_assert(talus::BroadPhase<FaultyPairs<2, true>, 2>);
 

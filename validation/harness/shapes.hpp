@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/any_shape_of.hpp>
 #include <talus/geometry/ball.hpp>
 #include <talus/geometry/box.hpp>
@@ -78,7 +79,7 @@ template <int Dim>
 struct talus::PairContacts<Dim, talus::Ball<Dim>, validation::Bowl<Dim>> {
     static void append(const Ball<Dim>& ball, const Pose<Dim>& at,
                        const validation::Bowl<Dim>& bowl, const Pose<Dim>& around, double margin,
-                       std::vector<ContactPoint<Dim>>& out) {
+                       Column<ContactPoint<Dim>>& out) {
         const Vector<Dim> from_centre = at.position - around.position;
         const double distance = from_centre.norm();
         const double gap = bowl.radius - ball.radius() - distance;
@@ -94,5 +95,5 @@ template <int Dim, class Other>
 struct talus::PairContacts<Dim, validation::Bowl<Dim>, Other> {
     static void append(const validation::Bowl<Dim>&, const Pose<Dim>&, const Other&,
                        const Pose<Dim>&, double,
-                       std::vector<ContactPoint<Dim>>&) requires(!std::same_as<Other, Ball<Dim>>) {}
+                       Column<ContactPoint<Dim>>&) requires(!std::same_as<Other, Ball<Dim>>) {}
 };

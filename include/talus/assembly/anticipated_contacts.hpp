@@ -4,6 +4,7 @@
 #include <talus/assembly/stopped_motion.hpp>
 #include <talus/collision/contact_set.hpp>
 #include <talus/collision/passage.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/dynamics/bodies.hpp>
 
@@ -13,7 +14,6 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -95,10 +95,10 @@ class AnticipatedContacts {
     const Bodies<Dim>* bodies_ = nullptr;
     double tolerance_ = 0.0;
     StoppedMotion<Dim> motion_;
-    std::vector<Encounter> encounters_;
-    std::vector<std::size_t> disputed_;     // encounters
-    std::vector<ContactPoint<Dim>> found_;  // by encounter; disputed ones also in the end
-    std::vector<ContactPoint<Dim>> near_, result_;
+    Column<Encounter> encounters_;
+    Column<std::size_t> disputed_;     // encounters
+    Column<ContactPoint<Dim>> found_;  // by encounter; disputed ones also in the end
+    Column<ContactPoint<Dim>> near_, result_;
 };
 
 #define TALUS_OF_ANTICIPATED(...) \
@@ -162,7 +162,7 @@ TALUS_OF_ANTICIPATED(void)::add_parts(const Encounter& pair,
     Encounter e = pair;
     e.first = found_.size();
     e.count = points.size();
-    found_.insert(found_.end(), points.begin(), points.end());
+    found_.append(points);
     e.kept_first = e.first;
     e.kept_count = e.count;
     if (concerns(e) && has_sides(e)) {
@@ -213,7 +213,7 @@ TALUS_OF_ANTICIPATED(void)::judge(Encounter& e) {
     }
     e.kept_first = found_.size();
     e.kept_count = result_.size();
-    found_.insert(found_.end(), result_.begin(), result_.end());
+    found_.append(result_);
 }
 
 /// True if the bodies' motion is to change for that.
@@ -252,8 +252,7 @@ TALUS_OF_ANTICIPATED(void)::finish(ContactSet<Dim>& contacts) {
     for (auto e = encounters_.begin(); e != encounters_.end();) {
         const BodyIndex a = e->a, b = e->b;
         result_.clear();
-        for (; e != encounters_.end() && e->a == a && e->b == b; ++e)
-            result_.insert(result_.end(), kept_of(*e).begin(), kept_of(*e).end());
+        for (; e != encounters_.end() && e->a == a && e->b == b; ++e) result_.append(kept_of(*e));
         sort_by_feature(result_);
         for (const ContactPoint<Dim>& point : result_) contacts.push_back(a, b, point);
     }

@@ -5,6 +5,7 @@
 #include <talus/collision/concepts.hpp>
 #include <talus/collision/contact_set.hpp>
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/dynamics/bodies.hpp>
 
 #include <algorithm>
@@ -105,15 +106,15 @@ class ContactDetection {
     }
 
     Broad broad_;
-    std::vector<Aabb<Dim>> box_;
-    std::vector<Vector<Dim>> position_;    // when the boxes were made
-    std::vector<Rotation<Dim>> rotation_;  // when the boxes were made
-    std::vector<double> room_;             // widening of each box
-    std::vector<bool> free_;               // no obstacle; two obstacles are no pair
-    std::uint64_t version_ = 0;            // of the shapes
-    bool found_ = false;                   // candidates, of this version
-    std::vector<CandidatePair> candidates_;
-    std::vector<ContactPoint<Dim>> points_;
+    Column<Aabb<Dim>> box_;
+    Column<Vector<Dim>> position_;    // when the boxes were made
+    Column<Rotation<Dim>> rotation_;  // when the boxes were made
+    Column<double> room_;             // widening of each box
+    std::vector<bool> free_;          // no obstacle; two obstacles are no pair
+    std::uint64_t version_ = 0;       // of the shapes
+    bool found_ = false;              // candidates, of this version
+    Column<CandidatePair> candidates_;
+    Column<ContactPoint<Dim>> points_;
     AnticipatedContacts<Dim> anticipated_;
 };
 

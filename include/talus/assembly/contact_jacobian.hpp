@@ -46,7 +46,7 @@ void hold_surfaces(std::span<const Twist<Dim>> excess, ContactJacobian<Dim>& jac
         const Twist<Dim>& a = excess[static_cast<std::size_t>(jacobian.a[c])];
         const Twist<Dim>& b = excess[static_cast<std::size_t>(jacobian.b[c])];
         const Vector<Dim> missing = a.at(jacobian.arm_a[c]) - b.at(jacobian.arm_b[c]);
-        jacobian.held[c] = jacobian.frame[c].row(0).dot(missing);
+        jacobian.held[c] = (jacobian.frame[c] * missing)[0];
     }
 }
 

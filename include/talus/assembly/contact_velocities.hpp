@@ -2,11 +2,11 @@
 #pragma once
 
 #include <talus/assembly/contact_jacobian.hpp>
+#include <talus/core/column.hpp>
 #include <talus/law/concepts.hpp>
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -16,7 +16,7 @@ namespace talus {
 template <int Dim, class Law>
 void assemble_velocities(const ContactJacobian<Dim>& jacobian, std::span<const Twist<Dim>> begin,
                          std::span<const Twist<Dim>> free, std::span<const Law> laws,
-                         std::vector<Vector<Dim>>& free_velocity) {
+                         Column<Vector<Dim>>& free_velocity) {
     free_velocity.resize(laws.size());
     for (std::size_t c = 0; c < laws.size(); ++c) {
         Vector<Dim>& u_free = free_velocity[c];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/contact_set.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/room.hpp>
 #include <talus/problem/contact_problem.hpp>
@@ -9,7 +10,6 @@
 #include <cstddef>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -42,7 +42,7 @@ class ImpulseCache {
     void store(const ContactSet<Dim>& contacts, const ContactJacobian<Dim>& jacobian,
                std::span<const Vector<Dim>> r) {
         detail::make_room(key_, r.size());
-        key_.assign(contacts.key.begin(), contacts.key.end());
+        key_ = contacts.key;
         impulse_.resize(r.size());
         for (std::size_t c = 0; c < r.size(); ++c)
             impulse_[c] = jacobian.frame[c].transpose() * r[c];
@@ -67,7 +67,7 @@ class ImpulseCache {
     /// Replaces the memory by these contacts, ascending, and impulses in world axes. Throws
     /// input_error, and remembers what it did, unless they are so, as many as each other and
     /// finite.
-    void assign(std::vector<ContactKey> key, std::vector<Vector<Dim>> impulse) {
+    void assign(Column<ContactKey> key, Column<Vector<Dim>> impulse) {
         require_count("impulses remembered", impulse.size(), "contacts", key.size());
         for (std::size_t c = 0; c < key.size(); ++c) {
             require_finite("impulse remembered", impulse[c]);
@@ -89,8 +89,8 @@ class ImpulseCache {
     std::span<const Vector<Dim>> impulses() const { return impulse_; }  ///< world axes [N s]
 
   private:
-    std::vector<ContactKey> key_;
-    std::vector<Vector<Dim>> impulse_;
+    Column<ContactKey> key_;
+    Column<Vector<Dim>> impulse_;
 };
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 
 #include <talus/collision/contact_point.hpp>
 #include <talus/collision/passage.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/dynamics/bodies.hpp>
 
@@ -29,7 +30,7 @@ class StoppedMotion {
     /// Starts from the motion over one step as if nothing were in the way.
     void begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> free) {
         bodies_ = &bodies;
-        motion_.assign(free.begin(), free.end());
+        motion_.assign(free);
         newest_.assign(bodies.count(), none);
         released_.assign(bodies.count(), false);
         changed_.assign(bodies.count(), false);
@@ -71,11 +72,11 @@ class StoppedMotion {
     bool act(Stop& stop);
 
     const Bodies<Dim>* bodies_ = nullptr;
-    std::vector<Twist<Dim>> motion_;
-    std::vector<std::size_t> newest_;  ///< stop of each free body
+    Column<Twist<Dim>> motion_;
+    Column<std::size_t> newest_;  ///< stop of each free body
     std::vector<bool> released_;
     std::vector<bool> changed_;  ///< the body's motion is not the free one
-    std::vector<Stop> stops_;
+    Column<Stop> stops_;
 };
 
 template <int Dim>

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <talus/collision/contact_point.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/ball.hpp>
-
-#include <vector>
 
 namespace talus {
 
@@ -13,7 +12,7 @@ namespace talus {
 template <int Dim>
 inline void append_ball_contact(const Ball<Dim>& a, const Pose<Dim>& pose_a, const Ball<Dim>& b,
                                 const Pose<Dim>& pose_b, double margin,
-                                std::vector<ContactPoint<Dim>>& out) {
+                                Column<ContactPoint<Dim>>& out) {
     const Vector<Dim> centre_b = b.centre_world(pose_b);
     const Vector<Dim> apart = a.centre_world(pose_a) - centre_b;
     const double reach = a.radius() + b.radius() + margin;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/concepts.hpp>
+#include <talus/core/column.hpp>
 
 #include <concepts>
 
@@ -15,7 +16,7 @@ class BruteForce {
   public:
     template <std::predicate<BodyIndex> IsObstacle>
     void find_pairs(std::span<const Aabb<Dim>> boxes, const IsObstacle& is_obstacle,
-                    std::vector<CandidatePair>& pairs) const {
+                    Column<CandidatePair>& pairs) const {
         require_no_nan(boxes);
         pairs.clear();
         const auto n = static_cast<BodyIndex>(boxes.size());

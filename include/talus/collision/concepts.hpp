@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
 #include <talus/geometry/aabb.hpp>
@@ -37,14 +38,16 @@ struct NoObstacles {
 /// (require_candidates). A pair left out, or one of boxes far apart, it cannot see.
 template <class B, int Dim>
 concept BroadPhase = requires(B& broad_phase, std::span<const Aabb<Dim>> boxes,
-                              NoObstacles is_obstacle, std::vector<CandidatePair>& pairs) {
+                              NoObstacles is_obstacle, Column<CandidatePair>& pairs) {
     broad_phase.find_pairs(boxes, is_obstacle, pairs);
 };
 
 /// Whether `box` encloses nothing.
 template <int Dim>
 bool is_empty(const Aabb<Dim>& box) {
-    return (box.low.array() > box.high.array()).any();
+    bool empty = false;
+    for (int k = 0; k < Dim; ++k) empty = empty || box.low[k] > box.high[k];
+    return empty;
 }
 
 /// Throws input_error naming the first body with a NaN in its box.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/types.hpp>
 
 #include <algorithm>
-#include <vector>
 
 namespace talus {
 
@@ -29,7 +29,7 @@ struct ContactPoint {
 };
 
 template <int Dim>
-void sort_by_feature(std::vector<ContactPoint<Dim>>& points) {
+void sort_by_feature(Column<ContactPoint<Dim>>& points) {
     std::sort(points.begin(), points.end(),
               [](const auto& x, const auto& y) { return x.feature < y.feature; });
 }

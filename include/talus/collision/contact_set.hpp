@@ -2,13 +2,12 @@
 #pragma once
 
 #include <talus/collision/contact_point.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
-#include <talus/core/per_body.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace talus {
 
@@ -17,11 +16,11 @@ namespace talus {
 template <int Dim>
 requires SpaceDimension<Dim>
 struct ContactSet {
-    std::vector<ContactKey> key;
-    std::vector<Vector<Dim>> point;   ///< [m]
-    std::vector<Vector<Dim>> normal;  ///< unit, from b towards a
-    std::vector<double> gap;          ///< [m]
-    std::vector<Vector<Dim>> slide;   ///< of a past b until they touch there [m]
+    Column<ContactKey> key;
+    Column<Vector<Dim>> point;   ///< [m]
+    Column<Vector<Dim>> normal;  ///< unit, from b towards a
+    Column<double> gap;          ///< [m]
+    Column<Vector<Dim>> slide;   ///< of a past b until they touch there [m]
     /// Ids of the bodies that the keys name by their indices; empty for contacts made by hand.
     PerBody<BodyId> body;
 

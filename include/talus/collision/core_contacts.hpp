@@ -4,6 +4,7 @@
 #include <talus/collision/edge_contacts.hpp>
 #include <talus/collision/face_contacts.hpp>
 #include <talus/collision/gjk.hpp>
+#include <talus/core/column.hpp>
 
 namespace talus {
 
@@ -88,8 +89,7 @@ bool add_face_contacts(const CorePair<Dim>& p, const Vector<Dim>& axis, double s
 /// over.
 template <int Dim>
 void append_core_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a, const CoreView<Dim>& b,
-                          const Pose<Dim>& pose_b, double margin,
-                          std::vector<ContactPoint<Dim>>& out) {
+                          const Pose<Dim>& pose_b, double margin, Column<ContactPoint<Dim>>& out) {
     const CorePair<Dim> p(a, pose_a, b, pose_b);
     const double limit = margin + p.rounding() + p.slack;
     SeparatingAxis<Dim> axis;

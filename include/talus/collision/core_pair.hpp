@@ -3,11 +3,11 @@
 
 #include <talus/collision/feature_code.hpp>
 #include <talus/collision/gjk.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/convex_core.hpp>
 #include <talus/spatial/pose.hpp>
 
 #include <algorithm>
-#include <vector>
 
 namespace talus {
 
@@ -77,7 +77,7 @@ struct CorePair {
 /// Where contacts of one pair of cores go: to `out`, in world axes, with the codes of this pair.
 template <int Dim>
 struct ContactSink {
-    std::vector<ContactPoint<Dim>>& out;
+    Column<ContactPoint<Dim>>& out;
     std::size_t first;       ///< of this pair of cores in `out`
     Pose<Dim> pose;          ///< of A's frame, in which contacts are given
     bool exchanged = false;  ///< A and B have changed places: mirror what is added

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/concepts.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/room.hpp>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ class HierarchicalGrid {
   public:
     template <std::predicate<BodyIndex> IsObstacle>
     void find_pairs(std::span<const Aabb<Dim>> boxes, const IsObstacle& is_obstacle,
-                    std::vector<CandidatePair>& pairs) {
+                    Column<CandidatePair>& pairs) {
         require_no_nan(boxes);
         pairs.clear();
         const auto keep = [&](BodyIndex i, BodyIndex j) {
@@ -113,7 +114,7 @@ class HierarchicalGrid {
         for (std::size_t k = 0; k < buckets; ++k) bucket_begin_[k + 1] += bucket_begin_[k];
         entries_.resize(unsorted_.size());
         // Filling from the back leaves each bucket in order of bodies and shifts the bounds by one.
-        bucket_end_.assign(bucket_begin_.begin() + 1, bucket_begin_.end());
+        bucket_end_.assign(std::span<const std::size_t>(bucket_begin_).subspan(1));
         for (std::size_t k = unsorted_.size(); k-- > 0;)
             entries_[--bucket_end_[bucket(unsorted_[k].level, cell(unsorted_[k]))]] = unsorted_[k];
     }
@@ -185,13 +186,13 @@ class HierarchicalGrid {
     }
 
     /// Two stable counting sorts, by b and then by a.
-    void sort(std::vector<CandidatePair>& pairs, std::size_t bodies) {
+    void sort(Column<CandidatePair>& pairs, std::size_t bodies) {
         for (BodyIndex CandidatePair::*key : {&CandidatePair::b, &CandidatePair::a}) {
             place_.assign(bodies + 1, 0);
             for (const CandidatePair& p : pairs) ++place_[index(p.*key) + 1];
             for (std::size_t k = 0; k < bodies; ++k) place_[k + 1] += place_[k];
             detail::make_room(unsorted_pairs_, pairs.size());
-            unsorted_pairs_.assign(pairs.begin(), pairs.end());
+            unsorted_pairs_ = pairs;
             for (const CandidatePair& p : unsorted_pairs_) pairs[place_[index(p.*key)]++] = p;
         }
     }
@@ -206,10 +207,10 @@ class HierarchicalGrid {
     double unit_ = 1.0;           ///< [m]
     std::uint64_t occupied_ = 0;  ///< bit m: level m has boxes
     std::uint64_t bucket_mask_ = 0;
-    std::vector<BodyIndex> bounded_, unbounded_;
-    std::vector<Entry> unsorted_, entries_;
-    std::vector<std::size_t> bucket_begin_, bucket_end_, place_;
-    std::vector<CandidatePair> unsorted_pairs_;
+    Column<BodyIndex> bounded_, unbounded_;
+    Column<Entry> unsorted_, entries_;
+    Column<std::size_t> bucket_begin_, bucket_end_, place_;
+    Column<CandidatePair> unsorted_pairs_;
 };
 static_assert(BroadPhase<HierarchicalGrid<2>, 2> && BroadPhase<HierarchicalGrid<3>, 3>);
 

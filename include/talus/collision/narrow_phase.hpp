@@ -8,6 +8,7 @@
 #include <talus/collision/support_contacts.hpp>
 #include <talus/collision/wall_contacts.hpp>
 #include <talus/core/check.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/instantiate.hpp>
 
 #include <algorithm>
@@ -15,7 +16,6 @@
 #include <concepts>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -24,7 +24,7 @@ namespace talus {
 template <int Dim>
 using SupportRoutine = void (*)(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                                 const ShapeView<Dim>& b, const Pose<Dim>& pose_b, double margin,
-                                std::vector<ContactPoint<Dim>>& out);
+                                Column<ContactPoint<Dim>>& out);
 
 /// The narrow phase for one pair of body shapes. It knows shapes by their views alone, so that it
 /// is compiled once for each dimension, whatever the number of shape types.
@@ -35,7 +35,7 @@ class NarrowPhase {
     /// Contacts with a gap up to `margin` [m] go to `out`; `own` are the routines of one's own for
     /// these shapes, which go first; `by_support` is null where no shape needs it.
     NarrowPhase(double margin, std::span<const OwnPair<Dim>> own, SupportRoutine<Dim> by_support,
-                std::vector<ContactPoint<Dim>>& out)
+                Column<ContactPoint<Dim>>& out)
         : margin_(margin), own_(own), by_support_(by_support), out_(out) {}
 
     void append(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const ShapeView<Dim>& b,
@@ -63,7 +63,7 @@ class NarrowPhase {
     double margin_;
     std::span<const OwnPair<Dim>> own_;
     SupportRoutine<Dim> by_support_;
-    std::vector<ContactPoint<Dim>>& out_;
+    Column<ContactPoint<Dim>>& out_;
 };
 
 template <int Dim>
@@ -199,7 +199,7 @@ constexpr SupportRoutine<Dim> support_routine() {
 template <int Dim, class A, class B>
 requires CanMeet<A, B, Dim>
 void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
-                    double margin, std::vector<ContactPoint<Dim>>& out) {
+                    double margin, Column<ContactPoint<Dim>>& out) {
     TALUS_CHECK(std::isfinite(margin), "the margin of a contact query is finite");
     TALUS_CHECK(pose_a.position.allFinite() && pose_b.position.allFinite(),
                 "the poses of a contact query are finite");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/contact_point.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/shape_view.hpp>
 
 #include <array>
@@ -9,7 +10,6 @@
 #include <cstddef>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 namespace talus {
 
@@ -22,7 +22,7 @@ struct PairContacts {};
 
 template <int Dim, class A, class B>
 concept HasPairContacts = requires(const A& a, const B& b, const Pose<Dim>& pose,
-                                   std::vector<ContactPoint<Dim>>& out) {
+                                   Column<ContactPoint<Dim>>& out) {
     PairContacts<Dim, A, B>::append(a, pose, b, pose, 0.0, out);
 };
 
@@ -33,7 +33,7 @@ struct OwnPair {
     const ShapeAccess<Dim>* a;
     const ShapeAccess<Dim>* b;
     void (*append)(const void* a, const Pose<Dim>& pose_a, const void* b, const Pose<Dim>& pose_b,
-                   double margin, std::vector<ContactPoint<Dim>>& out);
+                   double margin, Column<ContactPoint<Dim>>& out);
 };
 
 namespace detail {
@@ -100,7 +100,7 @@ constexpr auto make_own_pairs() {
             pairs[count++] = {
                 &shape_access<Dim, S>, &shape_access<Dim, T>,
                 [](const void* a, const Pose<Dim>& pose_a, const void* b, const Pose<Dim>& pose_b,
-                   double margin, std::vector<ContactPoint<Dim>>& out) {
+                   double margin, Column<ContactPoint<Dim>>& out) {
                     PairContacts<Dim, S, T>::append(*static_cast<const S*>(a), pose_a,
                                                     *static_cast<const T*>(b), pose_b, margin, out);
                 }};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/collision/narrow_phase.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/spatial/twist.hpp>
 
@@ -11,7 +12,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -94,11 +94,11 @@ class Passage {
     /// `near` has room for the contacts of one pair; `reach` [m] bounds what the two travel.
     Passage(const MovingShape<Dim>& a, const MovingShape<Dim>& b, std::span<const OwnPair<Dim>> own,
             SupportRoutine<Dim> by_support, double tolerance, double reach,
-            std::vector<ContactPoint<Dim>>& near);
+            Column<ContactPoint<Dim>>& near);
 
     /// Appends to `out` the contacts to keep in place of those at the nearest points, `present`:
     /// perhaps none.
-    Meeting append(std::span<const ContactPoint<Dim>> present, std::vector<ContactPoint<Dim>>& out);
+    Meeting append(std::span<const ContactPoint<Dim>> present, Column<ContactPoint<Dim>>& out);
 
   private:
     struct Axis {
@@ -138,7 +138,7 @@ class Passage {
     Axis across(const Axis& lost, const Axis& gained);
     ContactPoint<Dim> brought_back(const ContactPoint<Dim>& point) const;
     ContactPoint<Dim> of_foremost_points(FeatureId feature, const Axis& axis) const;
-    void append_near(double least_gap, std::vector<ContactPoint<Dim>>& out);
+    void append_near(double least_gap, Column<ContactPoint<Dim>>& out);
 
     const MovingShape<Dim>&a_, &b_;
     CoreView<Dim> core_a_, core_b_;
@@ -150,7 +150,7 @@ class Passage {
     bool others_ = false;  ///< an axis other than that of the nearest points qualifies
     Vector<Dim> nearest_ = Vector<Dim>::Zero();  ///< normal at the nearest points
     Axis best_other_ = {};                       ///< of the faces
-    std::vector<ContactPoint<Dim>>& near_;
+    Column<ContactPoint<Dim>>& near_;
     double seen_at_ = 0.0;                     ///< where `near_` is from [steps]
     Vector<Dim> shift_ = Vector<Dim>::Zero();  ///< of A, there [m]
     std::array<Pose<Dim>, 2> one_ahead_, all_ahead_;
@@ -163,7 +163,7 @@ class Passage {
 
 TALUS_OF_PASSAGE()::Passage(const MovingShape<Dim>& a, const MovingShape<Dim>& b,
                             std::span<const OwnPair<Dim>> own, SupportRoutine<Dim> by_support,
-                            double tolerance, double reach, std::vector<ContactPoint<Dim>>& near)
+                            double tolerance, double reach, Column<ContactPoint<Dim>>& near)
     : a_(a),
       b_(b),
       core_a_(core_of(a.shape)),
@@ -331,7 +331,7 @@ TALUS_OF_PASSAGE(ContactPoint<Dim>)::of_foremost_points(FeatureId feature, const
     return {0.5 * (on_a + on_b), n, axis.now, feature, -apart};
 }
 
-TALUS_OF_PASSAGE(void)::append_near(double least_gap, std::vector<ContactPoint<Dim>>& out) {
+TALUS_OF_PASSAGE(void)::append_near(double least_gap, Column<ContactPoint<Dim>>& out) {
     double least = std::numeric_limits<double>::infinity();
     for (ContactPoint<Dim>& point : near_) {
         point.gap = std::max(point.gap, least_gap);
@@ -343,14 +343,14 @@ TALUS_OF_PASSAGE(void)::append_near(double least_gap, std::vector<ContactPoint<D
 }
 
 TALUS_OF_PASSAGE(Meeting)::append(std::span<const ContactPoint<Dim>> present,
-                                  std::vector<ContactPoint<Dim>>& out) {
+                                  Column<ContactPoint<Dim>>& out) {
     const auto nearest = nearest_of(present);
     const bool closed = nearest->gap <= tolerance_;
     nearest_ = nearest->normal;
     find_faces(a_, core_a_, -1.0, present);
     find_faces(b_, core_b_, 1.0, present);
     if (!others_ && nearest->gap <= most_slack_) {
-        out.insert(out.end(), present.begin(), present.end());
+        out.append(present);
         return {};
     }
     Axis best = measured(nearest_);
@@ -364,7 +364,7 @@ TALUS_OF_PASSAGE(Meeting)::append(std::span<const ContactPoint<Dim>> present,
     const bool stays =
         outcome == Outcome::pass ? !best.held() : is_first || (closed && outcome == Outcome::meet);
     if (stays) {
-        out.insert(out.end(), present.begin(), present.end());
+        out.append(present);
         return meeting;
     }
     if (outcome == Outcome::pass)

@@ -4,6 +4,7 @@
 #include <talus/collision/feature_code.hpp>
 #include <talus/collision/gjk.hpp>
 #include <talus/collision/wall_contacts.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/geometry/half_space.hpp>
 #include <talus/geometry/shape_view.hpp>
@@ -14,7 +15,6 @@
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -305,8 +305,7 @@ Vector<Dim> placed_support(const ShapeView<Dim>& shape, const Pose<Dim>& pose,
 /// Contact of a convex shape with a half-space: its lowest point, code 0.
 template <int Dim>
 void append_lowest_point(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const HalfSpace<Dim>& b,
-                         const Pose<Dim>& pose_b, double margin,
-                         std::vector<ContactPoint<Dim>>& out) {
+                         const Pose<Dim>& pose_b, double margin, Column<ContactPoint<Dim>>& out) {
     const HalfSpace<Dim> wall = b.placed(pose_b);
     const Vector<Dim> x = placed_support(a, pose_a, Vector<Dim>(-wall.normal()));
     const double gap = wall.normal().dot(x) - wall.offset();
@@ -325,7 +324,7 @@ void append_lowest_point(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const
 template <int Dim>
 void append_support_contact(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                             const ShapeView<Dim>& b, const Pose<Dim>& pose_b, double margin,
-                            std::vector<ContactPoint<Dim>>& out) {
+                            Column<ContactPoint<Dim>>& out) {
     if (b.kind() == ShapeKind::half_space)
         return detail::append_lowest_point<Dim>(a, pose_a, b.template as<HalfSpace<Dim>>(), pose_b,
                                                 margin, out);

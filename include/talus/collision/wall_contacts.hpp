@@ -3,6 +3,7 @@
 
 #include <talus/collision/contact_point.hpp>
 #include <talus/collision/feature_code.hpp>
+#include <talus/core/column.hpp>
 #include <talus/geometry/ball.hpp>
 #include <talus/geometry/convex_core.hpp>
 #include <talus/geometry/half_space.hpp>
@@ -11,7 +12,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace talus {
 
@@ -20,7 +20,7 @@ namespace talus {
 template <int Dim>
 void append_half_space_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a,
                                 const HalfSpace<Dim>& b, const Pose<Dim>& pose_b, double margin,
-                                std::vector<ContactPoint<Dim>>& out) {
+                                Column<ContactPoint<Dim>>& out) {
     const HalfSpace<Dim> wall = b.placed(pose_b);
     const Vector<Dim> up = pose_a.rotation.transpose_times(wall.normal());
     const double base = wall.normal().dot(pose_a.position) - wall.offset() - a.radius;
@@ -39,7 +39,7 @@ void append_half_space_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a,
 template <int Dim>
 inline void append_half_space_contact(const Ball<Dim>& a, const Pose<Dim>& pose_a,
                                       const HalfSpace<Dim>& b, const Pose<Dim>& pose_b,
-                                      double margin, std::vector<ContactPoint<Dim>>& out) {
+                                      double margin, Column<ContactPoint<Dim>>& out) {
     if (!a.centre().isZero(0.0))
         return append_half_space_contacts<Dim>(a.core(), pose_a, b, pose_b, margin, out);
     const HalfSpace<Dim> wall = b.placed(pose_b);
@@ -57,7 +57,7 @@ namespace detail {
 template <int Dim>
 void append_in_hole(const Vector<Dim>& x, double r, const RoundHole<Dim>& hole,
                     const Pose<Dim>& pose, double margin, FeatureId feature,
-                    std::vector<ContactPoint<Dim>>& out) {
+                    Column<ContactPoint<Dim>>& out) {
     const Vector<Dim> across = hole.across(pose.point_body(x));
     const double way = across.norm();
     const double gap = hole.radius() - r - way;
@@ -73,8 +73,7 @@ void append_in_hole(const Vector<Dim>& x, double r, const RoundHole<Dim>& hole,
 /// enough, since the hole is convex. Of a core larger than the hole those that reach out of it.
 template <int Dim>
 void append_hole_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a, const RoundHole<Dim>& b,
-                          const Pose<Dim>& pose_b, double margin,
-                          std::vector<ContactPoint<Dim>>& out) {
+                          const Pose<Dim>& pose_b, double margin, Column<ContactPoint<Dim>>& out) {
     const double reach = b.across(pose_b.point_body(pose_a.point_world(a.centre))).norm() + a.bound;
     if (b.radius() - reach > margin + a.slack) return;
     for (std::uint32_t i = 0; i < a.vertices.size(); ++i)
@@ -88,7 +87,7 @@ void append_hole_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a, const
 template <int Dim>
 void append_hole_contact_by_support(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                                     const RoundHole<Dim>& b, const Pose<Dim>& pose_b, double margin,
-                                    std::vector<ContactPoint<Dim>>& out) {
+                                    Column<ContactPoint<Dim>>& out) {
     const Aabb<Dim> box = a.aabb(pose_a);
     const Vector<Dim> centre = pose_b.point_body(0.5 * (box.low + box.high));
     Vector<Dim> start = b.across(centre);

@@ -31,7 +31,7 @@ namespace detail {
 /// Calls f(0) ... f(N - 1). The first three calls are written out, so that the components of small
 /// vectors live in registers at every level of optimisation.
 template <int N, class F>
-constexpr void for_each_index(const F& f) {
+[[gnu::always_inline]] inline constexpr void for_each_index(const F& f) {
     f(0);
     if constexpr (N > 1) f(1);
     if constexpr (N > 2) f(2);
@@ -40,7 +40,7 @@ constexpr void for_each_index(const F& f) {
 
 /// f(0) + ... + f(N - 1), added from the left.
 template <int N, class F>
-constexpr auto sum_over(const F& f) {
+[[gnu::always_inline]] inline constexpr auto sum_over(const F& f) {
     auto sum = f(0);
     if constexpr (N > 1) sum += f(1);
     if constexpr (N > 2) sum += f(2);
@@ -160,6 +160,16 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
         for (int i = 0; i < Rows; ++i)
             for (int j = 0; j < Cols; ++j) r.data()[j + i * Cols] = at(i + j * Rows);
         return r;
+    }
+
+    /// Column k, by value.
+    SmallMatrix<Rows, 1, Real> column(Eigen::Index k) const {
+        SmallMatrix<Rows, 1, Real> r;
+        for (int i = 0; i < Rows; ++i) r.data()[i] = this->data()[i + k * Rows];
+        return r;
+    }
+    void set_column(Eigen::Index k, const SmallMatrix<Rows, 1, Real>& x) {
+        for (int i = 0; i < Rows; ++i) this->data()[i + k * Rows] = x.data()[i];
     }
 
     using Base::cwiseMax;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
-#include <talus/core/per_body.hpp>
 #include <talus/dynamics/collision_filter.hpp>
 #include <talus/dynamics/locked_axes.hpp>
 #include <talus/spatial/inertia.hpp>
@@ -170,8 +170,8 @@ struct Bodies {
         inverse_inertia.push_back(inverse_inertia_);
         material.push_back(material_index);
         id.push_back({next_serial_++});
-        locked.emplace_back();
-        groups.emplace_back();
+        locked.push_back({});
+        groups.push_back({});
         return static_cast<BodyIndex>(position.size() - 1);
     }
     void move(std::size_t from, std::size_t to) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -37,12 +37,12 @@ class IgnoredPairs {
     }
     void erase(BodyId a, BodyId b) {
         const Pair pair = ordered(a, b);
-        std::erase(pairs_, pair);
+        pairs_.erase_if([&](const Pair& one) { return one == pair; });
     }
     /// Forgets the pairs of bodies for which `gone(id)` holds.
     template <class Gone>
     void erase_if(Gone&& gone) {
-        std::erase_if(pairs_, [&](const Pair& p) { return gone(p.first) || gone(p.second); });
+        pairs_.erase_if([&](const Pair& p) { return gone(p.first) || gone(p.second); });
     }
     /// O(log pairs).
     bool contains(BodyId a, BodyId b) const {
@@ -56,7 +56,7 @@ class IgnoredPairs {
     using Pair = std::pair<BodyId, BodyId>;
     static Pair ordered(BodyId a, BodyId b) { return {std::min(a, b), std::max(a, b)}; }
 
-    std::vector<Pair> pairs_;
+    Column<Pair> pairs_;
 };
 
 }  // namespace talus

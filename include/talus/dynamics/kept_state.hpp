@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/dynamics/bodies.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace talus {
 
@@ -38,10 +38,10 @@ class KeptState {
     }
 
   private:
-    std::vector<Vector<Dim>> position_;
-    std::vector<Rotation<Dim>> rotation_;
-    std::vector<Vector<Dim>> velocity_;
-    std::vector<AngularVector<Dim>> spin_;
+    Column<Vector<Dim>> position_;
+    Column<Rotation<Dim>> rotation_;
+    Column<Vector<Dim>> velocity_;
+    Column<AngularVector<Dim>> spin_;
 };
 
 }  // namespace talus

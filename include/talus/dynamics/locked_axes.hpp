@@ -80,11 +80,11 @@ struct LockedAxes {
             const auto axis = static_cast<Eigen::Index>(k);
             const double own = inverse(axis, axis);
             if (own > 0.0) {
-                const AngularVector<Dim> column = inverse.col(axis);
+                const AngularVector<Dim> column = inverse.column(axis);
                 inverse -= column * column.transpose() / own;
             }
-            inverse.row(axis).setZero();
-            inverse.col(axis).setZero();
+            for (Eigen::Index j = 0; j < inverse.cols(); ++j)
+                inverse(axis, j) = inverse(j, axis) = 0.0;
         }
         return inverse;
     }

@@ -130,7 +130,7 @@ class Inlet {
     InletParams<Dim, ShapeType> params_;
     Random random_, shapes_;  // of places, and of shapes
     std::int64_t count_ = 0, owed_ = 0;
-    std::vector<ContactPoint<Dim>> points_;
+    Column<ContactPoint<Dim>> points_;
 };
 
 template <int Dim, class ShapeType>

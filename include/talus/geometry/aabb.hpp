@@ -15,7 +15,9 @@ struct Aabb {
     Vector<Dim> high = Vector<Dim>::Constant(-std::numeric_limits<double>::infinity());  ///< [m]
 
     bool overlaps(const Aabb& o) const {
-        return (low.array() <= o.high.array()).all() && (o.low.array() <= high.array()).all();
+        bool meet = true;
+        for (int k = 0; k < Dim; ++k) meet = meet && low[k] <= o.high[k] && o.low[k] <= high[k];
+        return meet;
     }
     bool bounded() const { return low.allFinite() && high.allFinite(); }
     Aabb expanded(double margin) const {

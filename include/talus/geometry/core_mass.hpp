@@ -32,11 +32,12 @@ MassProperties<Dim> core_mass_properties(const CoreView<Dim>& core) {
         const auto loop = core.face(f);
         for (std::size_t k = 1; k + (Dim == 3) < loop.size(); ++k) {
             Matrix<Dim> corners;
-            corners.col(0) = core.vertices[loop[0]] - origin;
+            corners.set_column(0, core.vertices[loop[0]] - origin);
             for (int c = 1; c < Dim; ++c)
-                corners.col(c) = core.vertices[loop[k + static_cast<std::size_t>(c - 1)]] - origin;
+                corners.set_column(
+                    c, core.vertices[loop[k + static_cast<std::size_t>(c - 1)]] - origin);
             const double v = corners.determinant() / (Dim == 2 ? 2.0 : 6.0);
-            const Vector<Dim> sum = corners.rowwise().sum();
+            const Vector<Dim> sum = corners * Vector<Dim>::Ones();
             volume += v;
             first += v / (Dim + 1) * sum;
             second += v / ((Dim + 1) * (Dim + 2)) *

@@ -38,11 +38,11 @@ PrincipalFrame<Dim> principal_frame(const MassProperties<Dim>& m) {
         const double off =
             std::abs(m.inertia(0, 1)) + std::abs(m.inertia(0, 2)) + std::abs(m.inertia(1, 2));
         if (off <= 1e-14 * m.inertia.trace()) {
-            result.moments = m.inertia.diagonal();
+            result.moments = {m.inertia(0, 0), m.inertia(1, 1), m.inertia(2, 2)};
         } else {
             const SymmetricEigen<3> eigen(m.inertia);
             Matrix<3> axes = eigen.vectors;
-            if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
+            if (axes.determinant() < 0.0) axes.set_column(0, -axes.column(0));
             result.moments = eigen.values;
             result.pose.rotation = Rotation<3>::from_matrix(axes);
         }

@@ -40,11 +40,11 @@ std::optional<Coulomb<Dim>> as_coulomb(const AnyLaw<Dim, Laws...>& law) {
 }
 
 /// The same for every contact. Throws input_error naming the first law that is another.
-template <int Dim, class Law>
-std::vector<Coulomb<Dim>> coulomb_laws(const std::vector<Law>& laws) {
+template <int Dim, class Laws>
+std::vector<Coulomb<Dim>> coulomb_laws(const Laws& laws) {
     std::vector<Coulomb<Dim>> result;
     result.reserve(laws.size());
-    for (const Law& law : laws) {
+    for (const auto& law : laws) {
         const auto coulomb = as_coulomb<Dim>(law);
         if (!coulomb)
             throw input_error("law of contact " + std::to_string(result.size()) +

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -57,10 +58,11 @@ class StepDump {
     /// One problem with its impulses.
     template <int Dim, class Law>
     static void write(const std::filesystem::path& path, const ContactProblem<Dim, Law>& problem,
-                      const std::vector<Vector<Dim>>& impulse, const ProblemInfo& info = {}) {
+                      std::type_identity_t<std::span<const Vector<Dim>>> impulse,
+                      const ProblemInfo& info = {}) {
         ProblemContent<Dim> content;
         content.global = global_form(problem);
-        content.solution = solution_of<Dim>(*content.global, std::span(impulse));
+        content.solution = solution_of<Dim>(*content.global, impulse);
         content.info = info;
         write_problem(path, content);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
 
@@ -9,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -65,7 +65,7 @@ class MaterialTable {
     }
 
     MaterialIndex materials_;
-    std::vector<std::optional<Law>> laws_;
+    Column<std::optional<Law>> laws_;
 };
 
 }  // namespace talus

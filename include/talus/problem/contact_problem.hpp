@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/cross.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace talus {
 
@@ -23,13 +23,13 @@ namespace talus {
 template <int Dim>
 requires SpaceDimension<Dim>
 struct ContactJacobian {
-    std::vector<BodyIndex> a;               ///< body that the normal points to
-    std::vector<BodyIndex> b;               ///< the other one
-    std::vector<Matrix<Dim>> frame;         ///< rows (n, t...)
-    std::vector<Vector<Dim>> arm_a, arm_b;  ///< from the centres to the contact point [m]
+    Column<BodyIndex> a;               ///< body that the normal points to
+    Column<BodyIndex> b;               ///< the other one
+    Column<Matrix<Dim>> frame;         ///< rows (n, t...)
+    Column<Vector<Dim>> arm_a, arm_b;  ///< from the centres to the contact point [m]
     /// Where a surface moves otherwise than its shape (PrescribedMotion::belt): the normal velocity
     /// of a relative to b by the shapes, less that by the surfaces [m/s]. Empty where none does.
-    std::vector<double> held;
+    Column<double> held;
 
     std::size_t contact_count() const { return a.size(); }
     /// Throws input_error unless all contacts are of bodies with an index below `count`.
@@ -64,11 +64,11 @@ struct ContactJacobian {
 template <int Dim>
 requires SpaceDimension<Dim>
 struct InverseMass {
-    std::vector<double> linear;               ///< 1/m [1/kg]
-    std::vector<AngularMatrix<Dim>> angular;  ///< inverse inertia tensor, world [1/(kg m^2)]
+    Column<double> linear;               ///< 1/m [1/kg]
+    Column<AngularMatrix<Dim>> angular;  ///< inverse inertia tensor, world [1/(kg m^2)]
     /// Of each body 1 along the axes of the world along which it moves, 0 along those that are
     /// locked. Empty where none has locked ones.
-    std::vector<Vector<Dim>> free_axes;
+    Column<Vector<Dim>> free_axes;
 
     std::size_t body_count() const { return linear.size(); }
     /// M^-1 of body k for translations, axis by axis [1/kg].
@@ -91,8 +91,8 @@ requires(SpaceDimension<Dim> && !has_rolling_rows<Law>) struct ContactProblem {
     /// u_free: the relative velocity that the step would end with if all impulses were zero, the
     /// prescribed motion of obstacles (the term W of the paper) and restitution shifts included
     /// [m/s].
-    std::vector<Vector<Dim>> free_velocity;
-    std::vector<Law> laws;
+    Column<Vector<Dim>> free_velocity;
+    Column<Law> laws;
 
     std::size_t contact_count() const { return free_velocity.size(); }
 };

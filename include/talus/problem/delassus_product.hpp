@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/column.hpp>
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/problem/islands.hpp>
@@ -12,7 +13,6 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -173,7 +173,7 @@ class DelassusProduct {
             return x.inverse_mass[d];
     }
 
-    static Vector<Dim> velocity(const Row& c, const std::vector<Body>& bodies) {
+    static Vector<Dim> velocity(const Row& c, const Column<Body>& bodies) {
         const Body& a = bodies[static_cast<std::size_t>(c.a)];
         const Body& b = bodies[static_cast<std::size_t>(c.b)];
         const Vector<Dim> turning_a = cross<Dim>(a.angular, c.arm_a);
@@ -187,7 +187,7 @@ class DelassusProduct {
         }
         return u;
     }
-    static void add(const Row& c, const Vector<Dim>& dr, std::vector<Body>& bodies) {
+    static void add(const Row& c, const Vector<Dim>& dr, Column<Body>& bodies) {
         Vector<Dim> impulse;
         for (int d = 0; d < Dim; ++d) {
             impulse[d] = c.frame(0, d) * dr[0];
@@ -213,7 +213,7 @@ class DelassusProduct {
         for (int d = 0; d < rotation_dof<Dim>; ++d)
             x.angular[d] = detail::unpaired(x.angular[d] + sign * turned(x, turn, d));
     }
-    void accumulate(std::span<const Vector<Dim>> r, std::vector<Body>& bodies) const {
+    void accumulate(std::span<const Vector<Dim>> r, Column<Body>& bodies) const {
         for (Body& x : bodies) {
             x.linear.setZero();
             x.angular.setZero();
@@ -223,10 +223,10 @@ class DelassusProduct {
 
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     const ContactJacobian<Dim>* jacobian_ = nullptr;
-    std::vector<Body> bodies_;
-    mutable std::vector<Body> scratch_;
+    Column<Body> bodies_;
+    mutable Column<Body> scratch_;
     mutable Islands islands_;
-    mutable std::vector<std::uint32_t> first_contact_;
+    mutable Column<std::uint32_t> first_contact_;
 };
 static_assert(SweepableDelassus<DelassusProduct<2>, 2> && SweepableDelassus<DelassusProduct<3>, 3>);
 static_assert(SweepableDelassus<DelassusProduct<3, double>, 3>);

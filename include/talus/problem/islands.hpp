@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -34,7 +35,7 @@ class Islands {
     }
 
   private:
-    std::vector<std::uint32_t> parent_;
+    Column<std::uint32_t> parent_;
 };
 
 }  // namespace talus

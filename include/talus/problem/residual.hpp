@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/room.hpp>
 #include <talus/problem/concepts.hpp>
@@ -14,7 +15,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -164,9 +164,9 @@ class ContactScales {
     }
 
     static constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> label_;  ///< island of each contact
-    std::vector<std::uint32_t> index_;
-    std::vector<Island> island_;
+    Column<std::uint32_t> label_;  ///< island of each contact
+    Column<std::uint32_t> index_;
+    Column<Island> island_;
     double fastest_ = 0.0;  ///< free velocity of any contact [m/s]
 };
 
@@ -314,7 +314,7 @@ class ResidualMeasure {
     }
 
   private:
-    std::vector<double> rho_;
+    Column<double> rho_;
     ContactScales scales_;
 };
 

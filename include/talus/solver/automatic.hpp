@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/law/cone_of.hpp>
@@ -18,7 +19,6 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 namespace talus {
 
@@ -318,7 +318,7 @@ class Automatic {
     RigidBodyOperators<Dim> bodies_;
     ResidualMeasure<Dim> measure_;
     ImpulseMemory<Dim> memory_;
-    std::vector<Vector<Dim>> velocity_, start_;
+    Column<Vector<Dim>> velocity_, start_;
     SolveReport report_;
     int sweeps_left_ = 0;
     int last_passes_ = 0, passes_ = 0;

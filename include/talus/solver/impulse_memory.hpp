@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/types.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -22,7 +22,7 @@ class ImpulseMemory {
     void clear() { best_residual_ = unknown; }
     /// Before an engine works on r, whose residual is that of the last measure.
     void keep(std::span<const Vector<Dim>> r, double residual) {
-        kept_.assign(r.begin(), r.end());
+        kept_.assign(r);
         kept_residual_ = residual;
         if (residual >= best_residual_) return;
         best_ = kept_;
@@ -43,7 +43,7 @@ class ImpulseMemory {
     }
 
   private:
-    std::vector<Vector<Dim>> kept_, best_;
+    Column<Vector<Dim>> kept_, best_;
     double kept_residual_ = unknown, best_residual_ = unknown;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/problem/residual.hpp>
 
 #include <cstddef>
 #include <string_view>
-#include <vector>
 
 namespace talus {
 
@@ -52,8 +52,8 @@ struct SolveReport {
     /// Whether the residual is above what the solver aims at beyond its tolerance, if it does
     /// (AcceleratedGaussSeidel).
     bool short_of_aim = false;
-    std::vector<ResidualSample> history;  ///< residuals evaluated on the way, in order
-    std::vector<SolveStage> stages;       ///< who did what, where several engines took part
+    Column<ResidualSample> history;  ///< residuals evaluated on the way, in order
+    Column<SolveStage> stages;       ///< who did what, where several engines took part
 
     /// Adds to a history of at most `limit` samples; from then on the last one is replaced.
     void note(int iteration, double residual_then, std::size_t limit) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/room.hpp>
 #include <talus/geometry/convex_core.hpp>
@@ -11,7 +12,6 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -79,8 +79,8 @@ class BodyShapes {
         return ++last;
     }
 
-    std::vector<ShapeType> shapes_;
-    std::vector<double> bounding_radius_, half_thickness_;
+    Column<ShapeType> shapes_;
+    Column<double> bounding_radius_, half_thickness_;
     std::uint64_t version_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <talus/assembly/apply_impulses.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/room.hpp>
 #include <talus/law/signorini.hpp>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -129,8 +129,8 @@ class GapCorrection {
     double budget_ = 0.0;
     ContactProblem<Dim, Signorini<Dim>> problem_;
     GaussSeidel<Dim, Signorini<Dim>> solver_;
-    std::vector<Vector<Dim>> impulse_;
-    std::vector<Twist<Dim>> displacement_;
+    Column<Vector<Dim>> impulse_;
+    Column<Twist<Dim>> displacement_;
 };
 
 }  // namespace talus

@@ -8,6 +8,7 @@
 #include <talus/assembly/contact_velocities.hpp>
 #include <talus/assembly/free_velocity.hpp>
 #include <talus/collision/hierarchical_grid.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/dynamics/drift.hpp>
@@ -27,7 +28,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -103,9 +103,9 @@ class MoreauMidpoint {
     WarmStart<Dim> warm_start_;
     KeptState<Dim> before_;
     bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
-    std::vector<double> fall_, reach_;    // by body
-    std::vector<Twist<Dim>> motion_;      // over one step; empty where nothing is anticipated
-    std::vector<Twist<Dim>> excess_;      // shape less surface, by body
+    Column<double> fall_, reach_;         // by body
+    Column<Twist<Dim>> motion_;           // over one step; empty where nothing is anticipated
+    Column<Twist<Dim>> excess_;           // shape less surface, by body
     double time_before_ = 0.0;
     [[no_unique_address]] Hooks hooks_;
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <talus/collision/contact_set.hpp>
-#include <talus/core/per_body.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/types.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/solver/report.hpp>
@@ -10,7 +10,6 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -34,7 +33,7 @@ struct StepData {
 
     ContactSet<Dim> contacts;          ///< at the midpoint configuration
     ContactProblem<Dim, Law> problem;  ///< what the solver was given
-    std::vector<Vector<Dim>> impulse;  ///< r, local axes [N s]
+    Column<Vector<Dim>> impulse;       ///< r, local axes [N s]
     std::size_t recalled = 0;          ///< contacts that began with a remembered impulse
     SolveReport report;
 

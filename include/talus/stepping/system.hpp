@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
@@ -40,9 +41,9 @@ struct System {
     using Obstacle = talus::Obstacle<Dim>;
 
     Bodies<Dim> bodies;
-    std::vector<Obstacle> obstacles;
+    Column<Obstacle> obstacles;
     Vector<Dim> gravity = Vector<Dim>::Zero();  ///< acceleration [m/s^2]
-    std::vector<ForceField<Dim>> forces;
+    Column<ForceField<Dim>> forces;
     IgnoredPairs ignored;  ///< pairs that do not touch; groups of bodies: Bodies::groups
     MaterialTable<Law> laws;
 
@@ -164,7 +165,7 @@ struct System {
   private:
     void check_material(MaterialIndex material) const;
     BodyIndex attach(BodyIndex body, ShapeType shape);
-    void move_up(const std::vector<BodyIndex>& to);
+    void move_up(const Column<BodyIndex>& to);
 
     /// Of this system alone: a copy, taken within a step, is in none.
     struct Step {
@@ -184,7 +185,7 @@ struct System {
 
     double time_ = 0.0;
     Step step_;
-    std::vector<Placed> placed_;  // in the order of obstacles
+    Column<Placed> placed_;  // in the order of obstacles
     BodyShapes<Dim, ShapeType> shapes_;
 };
 
@@ -197,7 +198,7 @@ std::size_t System<Dim, Law, ShapeType>::remove_if(Out&& out) {
     // All that may throw comes first.
     for (const Obstacle& obstacle : obstacles)
         require_in("body of an obstacle", obstacle.body, 0.0, static_cast<double>(n) - 1.0);
-    std::vector<BodyIndex> to(n, -1);
+    Column<BodyIndex> to(n, -1);
     BodyIndex kept = 0;
     for (std::size_t i = 0; i < n; ++i)
         if (!out(i)) to[i] = kept++;
@@ -218,7 +219,7 @@ void System<Dim, Law, ShapeType>::remove(std::span<const BodyId> ids) {
 /// `to`: the new index of each body, -1 for those that go.
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
-void System<Dim, Law, ShapeType>::move_up(const std::vector<BodyIndex>& to) {
+void System<Dim, Law, ShapeType>::move_up(const Column<BodyIndex>& to) {
     bodies.keep_if([&](std::size_t i) { return to[i] >= 0; });
     if (!ignored.empty()) ignored.erase_if([&](BodyId id) { return !bodies.find(id).has_value(); });
     shapes_.move_up(to);

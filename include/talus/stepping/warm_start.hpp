@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/assembly/impulse_cache.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/dynamics/bodies.hpp>
@@ -12,7 +13,6 @@
 #include <cstddef>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -75,7 +75,7 @@ class WarmStart {
         require_non_negative("last step size", state.last_h);
         remembered_.reserve(state.bodies.count());
         cache_.assign(state.key, state.impulse);
-        remembered_.assign(state.bodies.id.begin(), state.bodies.id.end());
+        remembered_ = state.bodies.id;
         last_h_ = state.last_h;
     }
 
@@ -83,7 +83,7 @@ class WarmStart {
     void renumber(ImpulseCache<Dim>& cache, const Bodies<Dim>& bodies) const;
 
     ImpulseCache<Dim> cache_, next_;  // next_: of the step under way, or before the last
-    std::vector<BodyId> remembered_;  // bodies that the cache numbers
+    Column<BodyId> remembered_;       // bodies that the cache numbers
     double last_h_ = 0.0, before_ = 0.0;
 };
 
@@ -92,7 +92,7 @@ requires SpaceDimension<Dim>
 void WarmStart<Dim>::follow(const Bodies<Dim>& bodies) {
     remembered_.reserve(bodies.id.size());  // what may throw comes first
     renumber(cache_, bodies);
-    remembered_.assign(bodies.id.begin(), bodies.id.end());
+    remembered_ = bodies.id;
 }
 
 /// Of a memory of `remembered_` one of the bodies there are.
@@ -104,7 +104,7 @@ void WarmStart<Dim>::renumber(ImpulseCache<Dim>& cache, const Bodies<Dim>& bodie
     if (remembered_.size() <= ids.size() &&
         std::equal(remembered_.begin(), remembered_.end(), ids.begin()))
         return;
-    std::vector<BodyIndex> to(remembered_.size(), -1);
+    Column<BodyIndex> to(remembered_.size(), -1);
     for (std::size_t i = 0, j = 0; i < remembered_.size(); ++i) {
         while (j < ids.size() && ids[j] < remembered_[i]) ++j;
         if (j < ids.size() && ids[j] == remembered_[i]) to[i] = static_cast<BodyIndex>(j);

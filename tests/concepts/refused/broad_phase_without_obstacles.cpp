@@ -4,7 +4,7 @@
 #include <talus/assembly/contact_detection.hpp>
 
 struct Blind {
-    void find_pairs(std::span<const talus::Aabb<3>>, std::vector<talus::CandidatePair>&);
+    void find_pairs(std::span<const talus::Aabb<3>>, talus::Column<talus::CandidatePair>&);
 };
 
 talus::ContactDetection<3, talus::Ball<3>, Blind> detection;

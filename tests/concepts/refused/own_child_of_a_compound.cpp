@@ -10,7 +10,7 @@ struct Mine {
 };
 using Clump = talus::CompoundOf<2, talus::AnyShapeOf<2, talus::Ball<2>, Mine>>;
 
-void meet(const Clump& clump, std::vector<talus::ContactPoint<2>>& out) {
+void meet(const Clump& clump, talus::Column<talus::ContactPoint<2>>& out) {
     talus::contact_points<2>(clump, talus::Pose<2>{}, talus::Ball<2>(1.0), talus::Pose<2>{}, 0.0,
                              out);
 }

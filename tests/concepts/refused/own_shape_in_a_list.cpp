@@ -8,6 +8,6 @@ struct Mine {
 };
 using Shapes = talus::AnyShapeOf<3, talus::Ball<3>, talus::HalfSpace<3>, Mine>;
 
-void meet(const Shapes& a, const Shapes& b, std::vector<talus::ContactPoint<3>>& out) {
+void meet(const Shapes& a, const Shapes& b, talus::Column<talus::ContactPoint<3>>& out) {
     talus::contact_points<3>(a, talus::Pose<3>{}, b, talus::Pose<3>{}, 0.0, out);
 }

@@ -7,6 +7,6 @@ struct Mine {
     talus::Vector<2> support(const talus::Vector<2>&) const;
 };
 
-void meet(const Mine& mine, std::vector<talus::ContactPoint<2>>& out) {
+void meet(const Mine& mine, talus::Column<talus::ContactPoint<2>>& out) {
     talus::contact_points<2>(mine, talus::Pose<2>{}, mine, talus::Pose<2>{}, 0.0, out);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/core/room.hpp>
@@ -18,7 +19,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -181,7 +181,7 @@ class AcceleratedGaussSeidel {
     int last_for_aim_ = 0;           ///< iteration at which the aim is given up; 0: there is none
     // y_: where the next map begins, own_y_: that of the own way meanwhile; kept_: the best
     // impulses measured.
-    std::vector<Vector<Dim>> x_, y_, own_y_, kept_;
+    Column<Vector<Dim>> x_, y_, own_y_, kept_;
     Residual best_;  ///< theirs
     // Momentum: the last T(y), Nesterov's time and the last increment.
     double time_ = 1.0, last_change_ = 0.0;
@@ -222,10 +222,9 @@ void AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper) {
     report_.history.reserve(history_limit);
     report_.short_of_aim = false;
     // Room for all ways, so that a hard problem needs no more than an easy one as large.
-    for (std::vector<Vector<Dim>>* one : {&kept_, &x_, &y_, &own_y_})
-        detail::make_room(*one, r.size());
+    for (Column<Vector<Dim>>* one : {&kept_, &x_, &y_, &own_y_}) detail::make_room(*one, r.size());
     if (params.patience > 0) memory_.make_room(Dim * r.size(), params.depth);
-    kept_.assign(r.begin(), r.end());
+    kept_.assign(r);
     best_ = {.relative = std::numeric_limits<double>::infinity()};
     constexpr double least = 50.0;  // double sweeps
     const double visits = 2.0 * static_cast<double>(std::max<std::size_t>(r.size(), 1));
@@ -247,7 +246,7 @@ void AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper) {
 
 template <int Dim, ContactLaw<Dim> Law>
 void AcceleratedGaussSeidel<Dim, Law>::iterate(Sweeper& sweeper) {
-    y_.assign(sweeper.r.begin(), sweeper.r.end());
+    y_.assign(sweeper.r);
     count_ = 0;
     next_look_ = 1;
     reset_momentum();
@@ -256,9 +255,9 @@ void AcceleratedGaussSeidel<Dim, Law>::iterate(Sweeper& sweeper) {
         run(sweeper, Way::own, params.max_iterations);
         return;
     }
-    const auto start_from = [&](const std::vector<Vector<Dim>>& x) {
+    const auto start_from = [&](const Column<Vector<Dim>>& x) {
         std::copy(x.begin(), x.end(), sweeper.r.begin());
-        y_.assign(x.begin(), x.end());
+        y_.assign(x);
         sweeper.start();
     };
     constexpr int rounds = 4, smoothing = 10, first_try = 30, plain = 1000;
@@ -310,7 +309,7 @@ bool AcceleratedGaussSeidel<Dim, Law>::run(Sweeper& sweeper, Way way, int length
         }
         if (k == params.max_iterations) return true;
         if (way == Way::damped || way == Way::plain) {
-            y_.assign(r.begin(), r.end());
+            y_.assign(r);
             continue;
         }
         with_momentum ? momentum(r, change) : combine(r, change);
@@ -346,8 +345,8 @@ bool AcceleratedGaussSeidel<Dim, Law>::verify(Sweeper& sweeper, int iterations) 
 template <int Dim, ContactLaw<Dim> Law>
 void AcceleratedGaussSeidel<Dim, Law>::momentum(std::span<const Vector<Dim>> x, double change) {
     if (change > last_change_ || time_ == 1.0) {
-        x_.assign(x.begin(), x.end());
-        y_.assign(x.begin(), x.end());
+        x_.assign(x);
+        y_.assign(x);
         const bool first = time_ == 1.0 && change <= last_change_;
         time_ = first ? 0.5 * (1.0 + std::sqrt(5.0)) : 1.0;
         last_change_ = first ? change : std::numeric_limits<double>::infinity();
@@ -385,7 +384,7 @@ void AcceleratedGaussSeidel<Dim, Law>::combine(std::span<const Vector<Dim>> x, d
         }
     }
     if (!memory_.combine()) {
-        y_.assign(x.begin(), x.end());
+        y_.assign(x);
         return;
     }
     for (std::size_t i = 0; i < n; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/room.hpp>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cstddef>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -19,10 +19,9 @@ class AndersonMemory {
     /// Room for iterates of n numbers, `depth` of them.
     void make_room(std::size_t n, int depth) {
         const auto most = static_cast<std::size_t>(depth);
-        for (std::vector<double>* one : {&images_, &increments_}) detail::make_room(*one, n * most);
-        for (std::vector<double>* one : {&gram_, &factor_}) detail::make_room(*one, most * most);
-        for (std::vector<double>* one :
-             {&now_image_, &now_increment_, &last_image_, &last_increment_})
+        for (Column<double>* one : {&images_, &increments_}) detail::make_room(*one, n * most);
+        for (Column<double>* one : {&gram_, &factor_}) detail::make_room(*one, most * most);
+        for (Column<double>* one : {&now_image_, &now_increment_, &last_image_, &last_increment_})
             detail::make_room(*one, n);
         detail::make_room(weights_, most);
     }
@@ -36,8 +35,7 @@ class AndersonMemory {
         gram_.resize(room * room);
         factor_.resize(room * room);
         weights_.resize(room);
-        for (std::vector<double>* one :
-             {&now_image_, &now_increment_, &last_image_, &last_increment_})
+        for (Column<double>* one : {&now_image_, &now_increment_, &last_image_, &last_increment_})
             one->resize(n);
         clear();
     }
@@ -75,7 +73,7 @@ class AndersonMemory {
     }
 
   private:
-    double* column(std::vector<double>& all, std::size_t j) {
+    double* column(Column<double>& all, std::size_t j) {
         return all.data() + j * now_image_.size();
     }
     /// Of columns; four sums, so that additions need not wait for each other.
@@ -131,9 +129,9 @@ class AndersonMemory {
     std::size_t depth_ = 0;
     std::size_t columns_ = 0, newest_ = 0;  // newest_: the place of the next difference
     bool has_last_ = false;
-    std::vector<double> images_, increments_;  // differences of T(y) and of T(y) - y, in a ring
-    std::vector<double> gram_, factor_, weights_;
-    std::vector<double> now_image_, now_increment_, last_image_, last_increment_;
+    Column<double> images_, increments_;  // differences of T(y) and of T(y) - y, in a ring
+    Column<double> gram_, factor_, weights_;
+    Column<double> now_image_, now_increment_, last_image_, last_increment_;
 };
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/check.hpp>
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/core/observer.hpp>
@@ -20,7 +21,6 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 namespace talus {
 
@@ -202,7 +202,7 @@ class GaussSeidel {
 
     detail::RigidBodies<Dim, Law> bodies_;
     SweepKernel<Dim, Law> kernel_;
-    std::vector<Vector<Dim>> last_finite_;
+    Column<Vector<Dim>> last_finite_;
     SweepSequence sequence_;
     SolveReport report_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/room.hpp>
 #include <talus/law/prepared.hpp>
@@ -8,7 +9,6 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -90,9 +90,9 @@ class SweepKernel {
     }
 
     ResidualMeasure<Dim> measure_;
-    std::vector<Vector<Dim>> velocity_;  // W r
+    Column<Vector<Dim>> velocity_;  // W r
     // By contact: what its law keeps of W_ii, the inverse of a block for Coulomb, say.
-    std::vector<Prepared<Law, Dim>> prepared_;
+    Column<Prepared<Law, Dim>> prepared_;
 };
 
 }  // namespace talus

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/column.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -63,7 +64,7 @@ class SweepSequence {
     std::uint64_t state_ = 0;
     std::size_t contacts_ = 0;
     std::uint64_t sweep_ = 0;
-    std::vector<std::size_t> permutation_;
+    Column<std::size_t> permutation_;
 };
 
 }  // namespace talus
