@@ -95,11 +95,11 @@ class Column {
     bool empty() const { return end_ == begin_; }
 
     T& operator[](std::integral auto i) {
-        TALUS_CHECK(static_cast<std::size_t>(i) < size(), "an index below the size");
+        check(static_cast<std::size_t>(i));
         return begin_[i];
     }
     const T& operator[](std::integral auto i) const {
-        TALUS_CHECK(static_cast<std::size_t>(i) < size(), "an index below the size");
+        check(static_cast<std::size_t>(i));
         return begin_[i];
     }
     T& front() { return (*this)[0]; }
@@ -179,6 +179,12 @@ class Column {
     }
 
   private:
+    /// Where the standard library checks its own: a tenth of a step's time, or two.
+    void check([[maybe_unused]] std::size_t i) const {
+#ifdef _GLIBCXX_ASSERTIONS
+        TALUS_CHECK(i < size(), "an index below the size");
+#endif
+    }
     [[gnu::noinline]] void append(const T* from, const T* to) {
         make_room(size() + static_cast<std::size_t>(to - from));
         for (; from != to; ++from, ++end_) ::new (static_cast<void*>(end_)) T(*from);
