@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/geometry/any_shape.hpp>
+#include <talus/geometry/superellipsoid.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -190,8 +191,45 @@ BOOST_AUTO_TEST_CASE(bad_polyhedra_are_refused_by_vertex) {
     BOOST_CHECK(has(refusal<3>(V{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}), "on a line"));
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(superellipsoids, D, dimensions) {
+    constexpr int Dim = D::value;
+    for (const double n : {1.25, 1.6, 2.0, 3.0, 8.0}) {
+        const talus::Vector<Dim> axes = talus::Vector<Dim>::Ones() * 0.3 +
+                                        0.4 * talus::Vector<Dim>::Unit(0) +
+                                        0.2 * talus::Vector<Dim>::Unit(Dim - 1);
+        ShapeTester<Dim, talus::Superellipsoid<Dim>,
+                    std::function<bool(const talus::Vector<Dim>&)>>(
+            talus::Superellipsoid<Dim>(axes, n),
+            [&](const talus::Vector<Dim>& x) {
+                double sum = 0.0;
+                for (int k = 0; k < Dim; ++k) sum += std::pow(std::abs(x[k]) / axes[k], n);
+                return sum <= 1.0;
+            })
+            .check();
+    }
+    // Balls, and ellipses in closed form.
+    const talus::Ball<Dim> ball(0.7);
+    const talus::Superellipsoid<Dim> round(0.7 * talus::Vector<Dim>::Ones());
+    BOOST_CHECK_CLOSE_FRACTION(round.mass_properties().volume, ball.mass_properties().volume,
+                               1e-14);
+    BOOST_CHECK_SMALL((round.mass_properties().inertia - ball.mass_properties().inertia).norm(),
+                      1e-14);
+    BOOST_TEST(round.half_thickness() == 0.7);
+    // Directions of any length, along an axis too, where powers of zero stand.
+    for (const double n : {2.0, 5.0})
+        for (const double length : {1e-200, 1.0, 1e200}) {
+            const talus::Vector<Dim> x = talus::Vector<Dim>::Unit(0);
+            const talus::Superellipsoid<Dim> one(talus::Vector<Dim>::Ones(), n);
+            BOOST_CHECK_SMALL((one.support(length * x) - x).norm(), 1e-14);
+        }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(bad_sizes_are_refused, D, dimensions) {
     constexpr int Dim = D::value;
+    for (const double n : {1.2, 8.1, 0.0, std::nan("")})
+        BOOST_CHECK_THROW(talus::Superellipsoid<Dim>(talus::Vector<Dim>::Ones(), n),
+                          talus::input_error);
+    BOOST_CHECK_THROW(talus::Superellipsoid<Dim>(talus::Vector<Dim>::Unit(0)), talus::input_error);
     BOOST_CHECK_THROW(talus::Capsule<Dim>(0.0, 1.0), talus::input_error);
     BOOST_CHECK_THROW(talus::Capsule<Dim>(1.0, -1.0), talus::input_error);
     const talus::Vector<Dim> zero = talus::Vector<Dim>::Zero();
