@@ -34,6 +34,7 @@ LAYERS = {
     "io/mesh": {"core", "io/line_reader"},
     "io/series": {"core", "spatial", "geometry", "dynamics", "io/vtk", "io/write_file"},
     "io/checkpoint": {"core", "spatial", "dynamics", "io/hdf5_reader", "io/hdf5_writer"},
+    "io/sample": {"core", "sample", "io/line_reader"},
     "io": PHYSICS | {"law", "problem", "assembly", "sample", "measure"},
 }
 LONGEST_HEADER = 400
