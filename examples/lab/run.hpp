@@ -100,14 +100,15 @@ class Run {
         while (!over() && pile::StopRequest::signal() == 0) {
             sim_.step();
             summary_.record(sim_.system(), sim_.data());
+            stepped_ = true;
+            const std::size_t contacts = sim_.data().contact_count();
             each();
             const double share =
                 over() ? 1.0 : std::min((sim_.time() - begin) / (expected - begin), 0.99);
             if (!command_.quiet() && progress.due(share)) {
                 char remark[100];
                 std::snprintf(remark, sizeof remark, "%zu bodies, %zu contacts, t = %.4g s",
-                              sim_.system().bodies.count(), sim_.data().contact_count(),
-                              sim_.time());
+                              sim_.system().bodies.count(), contacts, sim_.time());
                 progress.show(share, remark);
             }
             if (progress.seconds() > next_save) {
@@ -126,7 +127,7 @@ class Run {
 
     std::filesystem::path file() const { return command_.out() / "checkpoint.h5"; }
     /// Whether there is a last step to be looked at: a run that was over had none.
-    bool stepped() const { return sim_.data().h > 0.0; }
+    bool stepped() const { return stepped_; }
     const talus::RunSummary& summary() const { return summary_; }
     int exit_code() const {
         if (const int signal = pile::StopRequest::signal()) return ExitCode::stopped + signal;
@@ -140,6 +141,7 @@ class Run {
                                     std::function<void(const talus::NumberRecord&)>>>
         things_;
     talus::RunSummary summary_;
+    bool stepped_ = false;
 };
 
 /// Runs an experiment and turns whatever it throws into a sentence and an exit code.

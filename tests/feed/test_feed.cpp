@@ -215,6 +215,12 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(numbers_out_of_range_are_refused, D, dimensions) {
     refused([](auto& p) { p.velocity[0] = std::nan(""); });
     const V<Dim> zero = V<Dim>::Zero(), one = V<Dim>::Ones();
     BOOST_CHECK_THROW(talus::in_box<Dim>(one, zero), talus::input_error);
+    talus::Inlet<Dim> inlet(rain<Dim>());
+    for (const double t : {std::nan(""), HUGE_VAL})
+        BOOST_CHECK_THROW((void)inlet.due(t), talus::input_error);
+    inlet.owe(std::size_t{1} << 59);
+    BOOST_CHECK_THROW(inlet.owe(std::size_t{1} << 59), talus::input_error);
+    BOOST_CHECK_THROW(inlet.owe(static_cast<std::size_t>(-1)), talus::input_error);
     BOOST_CHECK_THROW(talus::in_disc<Dim>(zero, 0.0, one), talus::input_error);
     BOOST_CHECK_THROW(talus::in_disc<Dim>(zero, 1.0, zero), talus::input_error);
     BOOST_CHECK_THROW(talus::Sink<Dim>::below(zero, 0.0), talus::input_error);

@@ -215,6 +215,16 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(books_and_summaries_are_carried_along, D, dimensio
     BOOST_TEST(books.closure() < 1e-12);
 }
 
+BOOST_AUTO_TEST_CASE(a_record_that_is_not_there_is_refused_by_name) {
+    const talus::CheckpointRecords records{{"rain", {}}, {"run", {}}};
+    BOOST_CHECK_NO_THROW((void)records.at("rain"));
+    BOOST_CHECK_EXCEPTION((void)records.at("snow"), talus::input_error, [](const auto& error) {
+        const std::string sentence = error.what();
+        return sentence.find("'snow'") != std::string::npos &&
+               sentence.find("rain, run") != std::string::npos;
+    });
+}
+
 BOOST_AUTO_TEST_CASE(a_state_can_be_gone_back_to) {
     Yard<2> yard;
     for (int k = 0; k < 50; ++k) yard.step();

@@ -12,6 +12,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "common/dimensions.hpp"
@@ -92,6 +93,69 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_hinge_turns_by_its_moment_about_its_axis, D, dim
     BOOST_TEST((spin - spin[axis] * W<Dim>::Unit(axis)).norm() < 1e-12 * spin.norm());
     BOOST_TEST(system.bodies.position[door].is_zero());
     BOOST_TEST(books.closure() < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_held_fast_carries_whatever_it_weighs, D, dimensions) {
+    constexpr int Dim = D::value;
+    for (const double held : {1e-12, 1e-6, 1.0, 1e6})
+        for (const double carried : {1e-3, 1e3, 1e9}) {
+            auto sim = simulation<Dim>(law<Dim>(0.3), 1e-3, V<Dim>(-g * up<Dim>()), false);
+            auto& system = sim.system();
+            const auto ball = system.add(talus::Ball<Dim>(0.01),
+                                         talus::Inertia<Dim>{held, W<Dim>::Constant(held)}, {});
+            system.bodies.lock(ball, talus::LockedAxes<Dim>::all());
+            const auto box = system.add(talus::Box<Dim>(V<Dim>::Constant(0.1)),
+                                        talus::Inertia<Dim>{carried, W<Dim>::Constant(carried)},
+                                        {0.11 * up<Dim>(), {}});
+            BOOST_TEST(sim.run(0.1).certified());
+            BOOST_TEST(std::abs(system.bodies.velocity[box][Dim - 1]) < 1e-6);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(work_about_the_axes_that_turn_is_booked) {
+    auto sim = simulation<3>(law<3>(0.0), 1e-3, V<3>::Zero(), false);
+    auto& system = sim.system();
+    const double never = std::numeric_limits<double>::infinity();
+    const auto rotation = talus::Rotation<3>::exp(W<3>(0.3, -0.8, 0.5));
+    const auto top =
+        system.add(talus::Ball<3>(0.1), talus::Inertia<3>{1.0, W<3>(2.0, never, never)},
+                   {V<3>::Zero(), rotation});
+    system.forces.push_back([&](double, const auto& bodies, auto wrenches) {
+        // 4 N m about the axis that turns, and as much across, to no effect.
+        wrenches[0].torque = bodies.rotation[top] * W<3>(4.0, 4.0, -4.0);
+    });
+    talus::EnergyLedger<3> books(system.bodies, system.gravity);
+    for (int k = 0; k < 1000; ++k) {
+        sim.step();
+        books.record(sim.data(), system.bodies);
+    }
+    BOOST_CHECK_CLOSE(system.bodies.spin[top][0], 2.0, 1e-9);
+    BOOST_CHECK_CLOSE(books.flows().applied, 4.0, 1e-9);
+    BOOST_TEST(books.closure() < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_cannot_be_driven_is_refused_by_the_step, D, dimensions) {
+    constexpr int Dim = D::value;
+    for (const int which : {0, 1, 2}) {
+        auto sim = simulation<Dim>(law<Dim>(0.3), 1e-3, V<Dim>::Zero(), false);
+        auto& system = sim.system();
+        system.add_obstacle(talus::Ball<Dim>(0.1));
+        system.add(talus::Ball<Dim>(0.1), 1000.0, {V<Dim>(up<Dim>()), {}});
+        const talus::BodyId driven = which == 0   ? system.bodies.id[0]
+                                     : which == 1 ? talus::BodyId{7}
+                                                  : talus::BodyId{};
+        system.forces.push_back(
+            talus::servo<Dim>(driven, {.force = [](double, const auto&) { return 1.0; }}));
+        BOOST_CHECK_THROW(sim.step(), talus::input_error);
+        system.forces.clear();
+        // An obstacle that was given a mass would be moved by impulses and put back.
+        system.bodies.inverse_mass[0] = 1.0;
+        BOOST_CHECK_THROW(sim.step(), talus::input_error);
+        system.bodies.inverse_mass[0] = 0.0;
+        BOOST_CHECK_NO_THROW(sim.step());
+        BOOST_CHECK_THROW(system.ignored.insert({-1}, {0}), talus::input_error);
+        BOOST_CHECK_THROW(system.ignored.insert({1}, {1}), talus::input_error);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_top_on_a_rail_keeps_its_angular_momentum) {

@@ -11,7 +11,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "common/dimensions.hpp"
@@ -201,6 +204,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_reads_a_step_knows_whose_it_is, D, dimensions
     const auto says_which = [&](const talus::input_error& error) {
         return std::string(error.what()).find(std::to_string(gone.serial)) != std::string::npos;
     };
+    BOOST_CHECK_THROW((void)sim.data(), talus::input_error);
     talus::RunSummary refused;
     BOOST_CHECK_EXCEPTION(refused.record(system, data), talus::input_error, says_which);
     BOOST_TEST(refused.steps == 0);
@@ -220,6 +224,78 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_reads_a_step_knows_whose_it_is, D, dimensions
     talus::GroundPressure<Dim> pressure(talus::Rings<Dim>(talus::Vector<Dim>::Zero(), 0.1, 3));
     BOOST_CHECK_THROW(pressure.record(jacobian, forces, system.bodies, [](auto) { return true; }),
                       talus::input_error);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(who_is_asked_whom_to_remove_changes_nothing_else, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto sim = heap<Dim>(3, 3, law<Dim>(0.4), 2e-3);
+    auto& system = sim.system();
+    const std::size_t n = system.bodies.count();
+    BOOST_CHECK_THROW(system.remove_if([&](std::size_t i) {
+        if (i == 2) system.add(talus::Ball<Dim>(0.05), 1000.0, {talus::Vector<Dim>::Ones(), {}});
+        return i == 4;
+    }),
+                      talus::input_error);
+    BOOST_TEST(system.bodies.count() == n + 1);
+    BOOST_CHECK_THROW(system.remove_if([&](std::size_t i) {
+        if (i == 2) system.remove(std::vector{system.bodies.id[n]});
+        return i == 4;
+    }),
+                      talus::input_error);
+    BOOST_TEST(system.bodies.count() == n);
+    BOOST_TEST(system.shapes().size() == n);
+    BOOST_TEST(sim.run(0.1).certified());
+}
+
+BOOST_AUTO_TEST_CASE(states_that_cannot_be_are_refused) {
+    auto sim = heap<2>(3, 3, law<2>(0.4), 2e-3);
+    const auto good = sim.state();
+    const auto refuses = [&](auto&& spoil) {
+        auto bad = good;
+        spoil(bad);
+        BOOST_CHECK_THROW(sim.restore(bad), talus::input_error);
+        BOOST_CHECK(sim.state().bodies.id == good.bodies.id);
+    };
+    refuses([](auto& s) { s.bodies.id[4] = s.bodies.id[3]; });
+    refuses([](auto& s) { s.bodies.id[4].serial = 1000; });
+    refuses([](auto& s) { s.bodies.id[0].serial = -1; });
+    refuses([](auto& s) { s.bodies.position[4][0] = std::numeric_limits<double>::quiet_NaN(); });
+    BOOST_CHECK_NO_THROW(sim.restore(good));
+}
+
+BOOST_AUTO_TEST_CASE(a_step_without_removals_has_data_again) {
+    auto sim = heap<2>(3, 3, law<2>(0.4), 2e-3);
+    sim.system().remove_if([](std::size_t i) { return i == 4; });
+    BOOST_TEST(sim.run(0.01).certified());
+    BOOST_TEST(sim.data().end.size() == sim.system().bodies.count());
+    // What takes out nothing, or only adds, changes no index.
+    sim.system().remove_if([](std::size_t) { return false; });
+    sim.system().add(talus::Ball<2>(0.05), 1000.0, {{5.0, 5.0}, {}});
+    BOOST_CHECK_NO_THROW((void)sim.data());
+    sim.system().remove_if([](std::size_t i) { return i == 5; });
+    BOOST_CHECK_THROW((void)sim.data(), talus::input_error);
+    sim.step();
+    BOOST_TEST(sim.data().end.size() == sim.system().bodies.count());
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(summaries_of_parts_add_up_to_that_of_the_whole, D, dimensions) {
+    constexpr int Dim = D::value;
+    auto whole = heap<Dim>(3, 3, law<Dim>(0.4), 2e-3);
+    auto parts = whole;
+    talus::RunSummary sum;
+    for (int k = 0; k < 5; ++k) sum.add(parts.run(0.06));
+    talus::RunSummary all;
+    const talus::RunSummary at_once =
+        whole.run(0.3, [&](const auto& s) { all.record(s.system(), s.data()); });
+    BOOST_TEST(to_string(sum) == to_string(at_once));
+    BOOST_TEST(to_string(all) == to_string(at_once));
+    BOOST_TEST(sum.steps == 150);
+    talus::RunSummary bad;
+    bad.residual.value = std::numeric_limits<double>::quiet_NaN();
+    bad.missed = 1;
+    sum.add(bad);
+    BOOST_TEST(std::isnan(sum.residual.value));
+    BOOST_TEST(!sum.certified());
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(books_close_over_bodies_that_come_and_go, D, dimensions) {

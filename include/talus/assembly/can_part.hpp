@@ -18,15 +18,21 @@ bool can_part(const ContactSet<Dim>& contacts, std::size_t c, const Bodies<Dim>&
     const auto b = static_cast<std::size_t>(contacts.key[c].b);
     if (!bodies.locked[a].any() && !bodies.locked[b].any()) return true;
     const Vector<Dim>& n = contacts.normal[c];
+    // Of what may move: a light body that is held fast says nothing of a heavy one.
+    double scale = 0.0;
     const auto mobility = [&](std::size_t i) {
         const LockedAxes<Dim>& locked = bodies.locked[i];
         const AngularVector<Dim> lever =
             moment<Dim>(Vector<Dim>(contacts.point[c] - bodies.position[i]), n);
-        const AngularVector<Dim> turn = locked.free_part(inverse_inertia_world(bodies, i)) * lever;
+        const AngularMatrix<Dim> inverse = inverse_inertia_world(bodies, i);
+        if (!locked.all_translations()) scale += bodies.inverse_mass[i];
+        if (!locked.all_rotations()) scale += lever.dot(inverse * lever);
+        const AngularVector<Dim> turn = locked.free_part(inverse) * lever;
         return bodies.inverse_mass[i] * n.dot(locked.free_part(n)) + lever.dot(turn);
     };
     constexpr double rounding = 1e-12;
-    return mobility(a) + mobility(b) > rounding * (bodies.inverse_mass[a] + bodies.inverse_mass[b]);
+    const double both = mobility(a) + mobility(b);
+    return both > rounding * scale;
 }
 
 }  // namespace talus

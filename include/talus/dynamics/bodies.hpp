@@ -76,6 +76,8 @@ struct Bodies {
     /// gone.
     void skip_serials(std::int64_t next) { next_serial_ = std::max(next_serial_, next); }
 
+    /// How many bodies were ever taken out: where it is another, indices may be those of others.
+    std::int64_t removals() const { return removals_; }
     /// Keeps, in their order, the bodies for which `keep(i)` holds. O(bodies).
     template <class Keep>
     void keep_if(Keep&& keep) {
@@ -85,6 +87,7 @@ struct Bodies {
             move(i, kept);
             ++kept;
         }
+        removals_ += static_cast<std::int64_t>(count() - kept);
         position.resize(kept);
         rotation.resize(kept);
         velocity.resize(kept);
@@ -188,6 +191,7 @@ struct Bodies {
     }
 
     std::int64_t next_serial_ = 0;
+    std::int64_t removals_ = 0;
 };
 
 /// Throws input_error for inverse masses and moments that no body has; returns how many bodies have
@@ -221,6 +225,22 @@ std::size_t require_masses_of(const Bodies<Dim>& bodies) {
         without += inverse == 0.0 ? 1 : 0;
     }
     return without;
+}
+
+/// Throws input_error unless ids ascend, below that of the next body, and positions are finite: of
+/// bodies that come from elsewhere. O(bodies).
+template <int Dim>
+void require_ids_of(const Bodies<Dim>& bodies) {
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+        if (!bodies.position[i].allFinite())
+            require_finite(detail::numbered("position of body", i), bodies.position[i]);
+        const std::int64_t id = bodies.id[i].serial;
+        const std::int64_t least = i == 0 ? 0 : bodies.id[i - 1].serial + 1;
+        if (id < least || id >= bodies.next_serial())
+            detail::reject(detail::numbered("id of body", i), static_cast<double>(id),
+                           "above those before it and below that of the next body, " +
+                               std::to_string(bodies.next_serial()));
+    }
 }
 
 /// Kinetic energy of body i [J]; zero for obstacles.

@@ -3,6 +3,7 @@
 
 #include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
+#include <talus/core/input.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -29,8 +30,15 @@ constexpr bool may_meet(const CollisionGroups& a, const CollisionGroups& b) {
 /// Pairs of bodies that do not touch each other, such as neighbours of a chain.
 class IgnoredPairs {
   public:
-    /// O(pairs), as is `erase_if`.
+    /// O(pairs), as is `erase_if`. Throws input_error for what is the name of no body, and for a
+    /// body with itself.
     void insert(BodyId a, BodyId b) {
+        for (const BodyId id : {a, b})
+            if (id.serial < 0)
+                detail::reject("body id", static_cast<double>(id.serial), "that of a body");
+        if (a == b)
+            detail::reject("second body id of an ignored pair", static_cast<double>(b.serial),
+                           "that of another body");
         const Pair pair = ordered(a, b);
         const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
         if (at == pairs_.end() || *at != pair) pairs_.insert(at, pair);

@@ -5,6 +5,7 @@
 #include <talus/core/number_record.hpp>
 #include <talus/core/types.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -59,6 +60,13 @@ struct LockedAxes {
     void require_possible() const {
         if (turns > 1 && rotation_count() == 1)
             detail::reject("locked axes of rotation", 1, "none, two or three");
+    }
+
+    bool all_translations() const {
+        return std::all_of(translation.begin(), translation.end(), [](bool l) { return l; });
+    }
+    bool all_rotations() const {
+        return std::all_of(rotation.begin(), rotation.end(), [](bool l) { return l; });
     }
 
     /// What is left of a velocity along the axes that are free.

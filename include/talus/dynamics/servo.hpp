@@ -39,8 +39,10 @@ struct ServoParams {
 /// target: `system.forces.push_back(servo<Dim>(id, {...}))`. The body has a mass, and what pushes
 /// back comes out of the contacts of the same step, so that any load is stable on anything. A force
 /// that depends on the body's own place is a spring k, explicit as all applied forces: it is stable
-/// for h < 2 sqrt(m / k). It does nothing when the body is gone. Throws input_error if a number is
-/// out of range or there is no force; the force itself is checked by each step.
+/// for h < 2 sqrt(m / k). The force is constant over a step, which may add h F / m to the speed
+/// beyond `top_speed`. It does nothing when the body is gone. Throws input_error if a number is out
+/// of range or there is no force; a step checks the force itself, and throws if the body is an
+/// obstacle or never was.
 template <int Dim>
 ForceField<Dim> servo(BodyId body, ServoParams<Dim> params) {
     require_finite("direction of the servo", params.direction);
@@ -55,7 +57,13 @@ ForceField<Dim> servo(BodyId body, ServoParams<Dim> params) {
     return [body, p = std::move(params)](double t, const Bodies<Dim>& bodies,
                                          std::span<Wrench<Dim>> wrenches) {
         const auto found = bodies.find(body);
-        if (!found || bodies.is_obstacle(*found)) return;
+        if (!found && (body.serial < 0 || body.serial >= bodies.next_serial()))
+            detail::reject("body id of the servo", static_cast<double>(body.serial),
+                           "that of a body");
+        if (!found) return;
+        if (bodies.is_obstacle(*found))
+            throw input_error(detail::numbered("body", static_cast<std::size_t>(*found),
+                                               " of the servo is an obstacle, but must be free"));
         const auto i = static_cast<std::size_t>(*found);
         const double speed = p.direction.dot(bodies.velocity[i]);
         double force = p.force(t, bodies);

@@ -87,14 +87,20 @@ class Inlet {
     bool done() const { return count_ >= allowed(); }
     /// That are due at `time` and have not come.
     std::int64_t due(double time) const {
+        if (!std::isfinite(time)) detail::reject("time of an inlet", time, "finite");
         const double flown = std::floor(params_.rate * (time - params_.begin) * (1.0 + 1e-13));
         const double most = static_cast<double>(params_.total);
         const auto scheduled =
             static_cast<std::int64_t>(std::clamp(flown, 0.0, std::min(most, most_bodies)));
         return scheduled + owed_ - count_;
     }
-    /// Lets more come, as soon as there is room: those that a sink took, to be used again.
-    void owe(std::size_t bodies) { owed_ += static_cast<std::int64_t>(bodies); }
+    /// Lets more come, as soon as there is room: those that a sink took, to be used again. Throws
+    /// input_error beyond 1e18 in all.
+    void owe(std::size_t bodies) {
+        require_in("bodies that an inlet owes",
+                   static_cast<double>(bodies) + static_cast<double>(owed_), 0.0, most_bodies);
+        owed_ += static_cast<std::int64_t>(bodies);
+    }
 
     /// How far it is; what it was made of is said again by the program.
     void write(NumberRecord& out) const {

@@ -4,10 +4,12 @@
 #include <talus/core/input.hpp>
 #include <talus/io/hdf5_handle.hpp>
 
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <system_error>
@@ -109,6 +111,9 @@ class Hdf5Reader {
         std::error_code error;
         if (!std::filesystem::is_regular_file(path, error))
             throw input_error(path.string() + ": the file cannot be read, but must be " + what);
+        if (!std::ifstream(path).is_open())
+            throw input_error(path.string() + ": " + std::generic_category().message(errno) +
+                              ", but the file must be " + what);
         Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose);
         if (!file.valid())
             throw input_error(path.string() + ": the file is no whole HDF5 file, but must be " +
@@ -162,7 +167,9 @@ class Hdf5Reader {
         const Hdf5Handle creation(H5Dget_create_plist(set.id()), &H5Pclose);
         const bool packed =
             H5Pget_layout(creation.id()) == H5D_CHUNKED && H5Pget_nfilters(creation.id()) > 0;
-        const std::size_t room = (stored > 0 ? stored : size) / H5Tget_size(type);
+        const std::size_t width = H5Tget_size(type);
+        if (width == 0) fail(name, "is of numbers without bytes, but must be whole");
+        const std::size_t room = (stored > 0 ? stored : size) / width;
         const bool is_there = stored > 0 && !packed;
         if (stored > size || (is_there ? length : length / largest_ratio) > room)
             fail(name, "is cut off, but must be whole");

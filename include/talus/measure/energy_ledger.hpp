@@ -170,7 +170,8 @@ class EnergyLedger {
                                   0.5 * (step.begin[i].angular + step.end[i].angular)};
             if (!step.applied.empty()) flows_.applied += applied_work(step, bodies, i, mean);
             if (!step.gyroscopic.empty() && bodies.inverse_inertia[i].minCoeff() > 0.0) {
-                const AngularVector<Dim> spin = mid_spin_body(bodies, i, mean.angular, step);
+                const AngularVector<Dim> spin =
+                    mid_rotation(bodies, i, step).spin_body(mean.angular);
                 flows_.gyroscopic +=
                     spin.dot(step.gyroscopic[i].cwiseQuotient(bodies.inverse_inertia[i]));
             }
@@ -181,22 +182,23 @@ class EnergyLedger {
     static double applied_work(const Step& step, const Bodies<Dim>& bodies, std::size_t i,
                                const Twist<Dim>& mean) {
         Wrench<Dim> wrench = step.applied[i];
-        for (int k = 0; k < rotation_dof<Dim>; ++k)
-            if (bodies.inverse_inertia[i][k] == 0.0) {
-                // An axis that does not turn takes no work; moments then have no meaning.
-                wrench.torque.setZero();
-            }
+        const AngularVector<Dim>& inverse = bodies.inverse_inertia[i];
+        if (inverse.minCoeff() == 0.0) {
+            // Principal axes that do not turn take no work; moments about them have no meaning.
+            const Rotation<Dim> mid = mid_rotation(bodies, i, step);
+            AngularVector<Dim> torque = mid.spin_body(wrench.torque);
+            for (int k = 0; k < rotation_dof<Dim>; ++k)
+                if (inverse[k] == 0.0) torque[k] = 0.0;
+            wrench.torque = mid.spin_world(torque);
+        }
         return step.h * power<Dim>(wrench, mean);
     }
 
-    /// Body axes of the midpoint, from the state at the end: the body turned by h/2 at its end
+    /// That of the midpoint, from the state at the end: the body turned back by h/2 at its end
     /// spin.
     template <class Step>
-    static AngularVector<Dim> mid_spin_body(const Bodies<Dim>& bodies, std::size_t i,
-                                            const AngularVector<Dim>& world, const Step& step) {
-        const Rotation<Dim> mid =
-            bodies.rotation[i] * Rotation<Dim>::exp(-0.5 * step.h * bodies.spin[i]);
-        return mid.spin_body(world);
+    static Rotation<Dim> mid_rotation(const Bodies<Dim>& bodies, std::size_t i, const Step& step) {
+        return bodies.rotation[i] * Rotation<Dim>::exp(-0.5 * step.h * bodies.spin[i]);
     }
 
     Vector<Dim> gravity_ = Vector<Dim>::Zero();

@@ -22,8 +22,9 @@ struct RunSummary {
     /// A number that was the worst of the run, with when and between which bodies.
     struct Worst {
         double value = 0.0;
-        double time = 0.0;                   ///< end of the step [s]
-        BodyIndex a = no_body, b = no_body;  ///< no_body where there was none
+        double time = 0.0;  ///< end of the step [s]
+        /// Indices in that step; no_body where there was none.
+        BodyIndex a = no_body, b = no_body;
     };
     static constexpr BodyIndex no_body = -1;
     static constexpr double deepest_overlap = 0.15;  ///< of a run that is certified [-]
@@ -83,6 +84,22 @@ struct RunSummary {
             const double thinner =
                 std::min(half[static_cast<std::size_t>(a)], half[static_cast<std::size_t>(b)]);
             note(overlap, -data.contacts.gap[k] / thinner, data, k);
+        }
+    }
+
+    /// Takes in a run that went on after this one.
+    void add(const RunSummary& later) {
+        steps += later.steps;
+        missed += later.missed;
+        short_of_aim += later.short_of_aim;
+        turned_too_far += later.turned_too_far;
+        drift += later.drift;
+        stopped = later.stopped;
+        for (Worst RunSummary::*worst :
+             {&RunSummary::residual, &RunSummary::contact_error, &RunSummary::velocity_error,
+              &RunSummary::overlap, &RunSummary::travel}) {
+            const Worst& other = later.*worst;
+            if (other.value > (this->*worst).value || std::isnan(other.value)) this->*worst = other;
         }
     }
 

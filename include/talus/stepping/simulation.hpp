@@ -15,6 +15,16 @@
 
 namespace talus {
 
+namespace detail {
+
+[[noreturn]] inline void refuse_data() {
+    throw input_error(
+        "data of the last step are of bodies that were removed since, but must be read before the "
+        "removal, or after the next step");
+}
+
+}  // namespace detail
+
 /// Settings of a simulation.
 struct SimulationParams {
     /// Step size [s]. Overlaps are at most h times the speed of approach; a grain of radius R that
@@ -107,7 +117,12 @@ class Simulation {
     const SystemType& system() const { return system_; }
     Solver& solver() { return solver_; }
     const Solver& solver() const { return solver_; }
-    const Data& data() const { return data_; }  ///< of the last step
+    /// Of the last step; empty before the first one, and after `restore`. Throws input_error when
+    /// bodies were removed since: its indices were those of others.
+    const Data& data() const {
+        if (system_.bodies.removals() != removals_) detail::refuse_data();
+        return data_;
+    }
     /// Impulses remembered for the warm start; clear it to make the next step start cold.
     ImpulseCache<Dim>& impulse_cache() {
         integrator_.warm_start().follow(system_.bodies);
@@ -127,6 +142,7 @@ class Simulation {
     Data data_, next_data_;  // the next one: of a step under way
     double time_start_, time_;
     std::int64_t step_count_ = 0;
+    std::int64_t removals_;  // of bodies, at the last step
 };
 
 template <int Dim, class Types>
@@ -137,7 +153,8 @@ requires SpaceDimension<Dim> Simulation<Dim, Types>::Simulation(SystemType syste
       params_(params),
       solver_(std::move(solver)),
       time_start_(system_.time()),
-      time_(time_start_) {
+      time_(time_start_),
+      removals_(system_.bodies.removals()) {
     require_positive("step size h", params_.h);
     require_non_negative("contact tolerance", params_.step.contact_tolerance.value_or(0.0));
     require_non_negative("skin", params_.step.skin);
@@ -155,6 +172,7 @@ auto Simulation<Dim, Types>::step() -> const Data& {
         throw;
     }
     std::swap(data_, next_data_);
+    removals_ = system_.bodies.removals();
     ++step_count_;
     time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
     return data_;
@@ -198,6 +216,7 @@ void Simulation<Dim, Types>::restore(const RunState<Dim, ShapeType>& state) {
     system_ = std::move(system);
     gap_correction_ = std::move(correction);
     data_ = Data();
+    removals_ = system_.bodies.removals();
     time_start_ = state.time_start;
     step_count_ = state.step_count;
     time_ = time_start_ + static_cast<double>(step_count_) * params_.h;

@@ -200,8 +200,15 @@ std::size_t System<Dim, Law, ShapeType>::remove_if(Out&& out) {
         require_in("body of an obstacle", obstacle.body, 0.0, static_cast<double>(n) - 1.0);
     Column<BodyIndex> to(n, -1);
     BodyIndex kept = 0;
-    for (std::size_t i = 0; i < n; ++i)
+    const std::int64_t removals = bodies.removals();
+    for (std::size_t i = 0; i < n; ++i) {
         if (!out(i)) to[i] = kept++;
+        if (bodies.count() != n || bodies.removals() != removals)
+            throw input_error(detail::numbered(
+                "number of bodies became", bodies.count(),
+                " while it was asked which to remove, but must stay " + std::to_string(n)));
+    }
+    if (static_cast<std::size_t>(kept) == n) return 0;
     move_up(to);
     return n - static_cast<std::size_t>(kept);
 }
@@ -277,6 +284,14 @@ template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::require_masses() const {
     const std::size_t n = bodies.count();
+    for (const Obstacle& obstacle : obstacles) {
+        require_in("body of an obstacle", obstacle.body, 0.0, static_cast<double>(n) - 1.0);
+        if (!bodies.is_obstacle(obstacle.body))
+            detail::reject(
+                detail::numbered("inverse mass of body", static_cast<std::size_t>(obstacle.body),
+                                 ", which has a prescribed motion,"),
+                bodies.inverse_mass[obstacle.body], "0");
+    }
     if (require_masses_of(bodies) == obstacles.size()) return;
     const auto has_motion = [&](std::size_t i) {
         return std::any_of(obstacles.begin(), obstacles.end(), [i](const Obstacle& obstacle) {
@@ -361,6 +376,7 @@ void System<Dim, Law, ShapeType>::restore(const RunState<Dim, ShapeType>& state)
     require_count("shapes", state.shapes.size(), "bodies", n);
     require_masses_of(state.bodies);
     require_count("materials", state.bodies.material.size(), "bodies", n);
+    require_ids_of(state.bodies);
     for (const MaterialIndex material : state.bodies.material) check_material(material);
     require_finite("gravity", state.gravity);
     for (const Obstacle& obstacle : state.obstacles)

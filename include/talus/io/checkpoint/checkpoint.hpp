@@ -20,7 +20,19 @@ namespace talus {
 
 /// Data of one's own that a checkpoint carries, by names of letters, digits, `_`, `-` and `.`:
 /// `{{"rain", record_of(random)}, {"run", record_of(summary)}}`.
-using CheckpointRecords = std::map<std::string, NumberRecord>;
+struct CheckpointRecords : std::map<std::string, NumberRecord> {
+    using std::map<std::string, NumberRecord>::map;
+    /// Throws input_error naming the record if there is none of that name.
+    const NumberRecord& at(const std::string& name) const {
+        const auto found = find(name);
+        if (found != end()) return found->second;
+        std::string names;
+        for (const auto& [other, record] : *this) names += (names.empty() ? "" : ", ") + other;
+        throw input_error("record of the checkpoint is '" + detail::printable(name, 40) +
+                          "', but must be one that was saved" +
+                          (names.empty() ? ": none was" : " (" + names + ")"));
+    }
+};
 
 /// Motions of obstacles that are made of functions, by the names that they have
 /// (PrescribedMotion::named).
