@@ -3,6 +3,7 @@
 // closed forms.
 #include <talus/dynamics/servo.hpp>
 #include <talus/geometry/box.hpp>
+#include <talus/geometry/capsule.hpp>
 #include <talus/law/bilateral.hpp>
 #include <talus/measure/energy_ledger.hpp>
 #include <talus/solver/solver_registry.hpp>
@@ -93,6 +94,23 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_hinge_turns_by_its_moment_about_its_axis, D, dim
     BOOST_TEST((spin - spin[axis] * W<Dim>::Unit(axis)).norm() < 1e-12 * spin.norm());
     BOOST_TEST(system.bodies.position[door].is_zero());
     BOOST_TEST(books.closure() < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(a_needle_on_a_hinge_turns_as_its_length_says) {
+    for (const double radius : {1e-2, 1e-5, 1e-8}) {
+        auto sim = simulation<3>(law<3>(0.3), 1e-3, V<3>::Zero(), false);
+        auto& system = sim.system();
+        const auto rotation = talus::Rotation<3>::exp(W<3>(0.0, 0.7, 0.4));
+        const auto needle = system.add(talus::Capsule<3>(0.5, radius), 1.0 / (radius * radius),
+                                       {V<3>::Zero(), rotation});
+        system.bodies.lock(needle, talus::LockedAxes<3>::all_but_rotation(2));
+        const double inertia =
+            talus::tensor_world<3>(rotation, system.bodies.inertia(needle))(2, 2);
+        system.forces.push_back(
+            [](double, const auto&, auto wrenches) { wrenches[0].torque = W<3>(0.0, 0.0, 0.1); });
+        for (int k = 0; k < 100; ++k) sim.step();
+        BOOST_CHECK_CLOSE(system.bodies.twist(needle).angular[2], 0.01 / inertia, 1e-7);
+    }
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_held_fast_carries_whatever_it_weighs, D, dimensions) {

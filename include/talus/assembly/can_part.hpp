@@ -27,7 +27,7 @@ bool can_part(const ContactSet<Dim>& contacts, std::size_t c, const Bodies<Dim>&
         const AngularMatrix<Dim> inverse = inverse_inertia_world(bodies, i);
         if (!locked.all_translations()) scale += bodies.inverse_mass[i];
         if (!locked.all_rotations()) scale += lever.dot(inverse * lever);
-        const AngularVector<Dim> turn = locked.free_part(inverse) * lever;
+        const AngularVector<Dim> turn = free_inverse_inertia_world(bodies, i) * lever;
         return bodies.inverse_mass[i] * n.dot(locked.free_part(n)) + lever.dot(turn);
     };
     constexpr double rounding = 1e-12;

@@ -62,7 +62,7 @@ void assemble_inverse_mass(const Bodies<Dim>& bodies, InverseMass<Dim>& inverse_
         if (!locked.any()) continue;
         inverse_mass.free_axes.resize(bodies.count(), Vector<Dim>::Ones());
         inverse_mass.free_axes[i] = locked.free_part(Vector<Dim>::Ones());
-        inverse_mass.angular[i] = locked.free_part(inverse_mass.angular[i]);
+        inverse_mass.angular[i] = free_inverse_inertia_world(bodies, i);
     }
 }
 

@@ -46,7 +46,7 @@ Twist<Dim> free_velocity(const Bodies<Dim>& bodies, std::size_t i, double h,
     if (const LockedAxes<Dim>& locked = bodies.locked[i]; locked.any()) {
         free.linear = locked.free_part(
             Vector<Dim>(free.linear + h * (gravity + bodies.inverse_mass[i] * applied.force)));
-        const AngularMatrix<Dim> mobility = locked.free_part(inverse_inertia_world(bodies, i));
+        const AngularMatrix<Dim> mobility = free_inverse_inertia_world(bodies, i);
         free.angular = locked.free_turn(
             AngularVector<Dim>(free.angular + bodies.rotation[i].spin_world(gyroscopic) +
                                h * (mobility * applied.torque)));

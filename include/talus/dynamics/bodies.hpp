@@ -264,4 +264,23 @@ AngularMatrix<Dim> inverse_inertia_world(const Bodies<Dim>& bodies, std::size_t 
     return tensor_world<Dim>(bodies.rotation[i], principal);
 }
 
+/// What moments along the free axes do, in world axes, while the guide keeps the others: where one
+/// axis is free the inverse of the moment of inertia about it, summed up from the principal ones
+/// (taken out of the inverse tensor it would have the digits of the largest entry).
+template <int Dim>
+AngularMatrix<Dim> free_inverse_inertia_world(const Bodies<Dim>& bodies, std::size_t i) {
+    const LockedAxes<Dim>& locked = bodies.locked[i];
+    if (locked.rotation_count() == 0) return inverse_inertia_world(bodies, i);
+    AngularMatrix<Dim> free = AngularMatrix<Dim>::Zero();
+    for (int k = 0; k < rotation_dof<Dim>; ++k) {
+        if (locked.rotation[static_cast<std::size_t>(k)]) continue;
+        const AngularVector<Dim> axis = bodies.rotation[i].spin_body(AngularVector<Dim>::Unit(k));
+        double inertia = 0.0;
+        for (int j = 0; j < rotation_dof<Dim>; ++j)
+            if (axis[j] != 0.0) inertia += axis[j] * axis[j] / bodies.inverse_inertia[i][j];
+        free(k, k) = 1.0 / inertia;
+    }
+    return free;
+}
+
 }  // namespace talus

@@ -80,23 +80,6 @@ struct LockedAxes {
             if (rotation[k]) w.data()[k] = 0.0;
         return w;
     }
-    /// Of an inverse inertia tensor in world axes the one of what may turn: what moments along the
-    /// free axes do while the guide keeps the others.
-    AngularMatrix<Dim> free_part(AngularMatrix<Dim> inverse) const {
-        for (std::size_t k = 0; k < turns; ++k) {
-            if (!rotation[k]) continue;
-            const auto axis = static_cast<Eigen::Index>(k);
-            const double own = inverse(axis, axis);
-            if (own > 0.0) {
-                const AngularVector<Dim> column = inverse.column(axis);
-                inverse -= column * column.transpose() / own;
-            }
-            for (Eigen::Index j = 0; j < inverse.cols(); ++j)
-                inverse(axis, j) = inverse(j, axis) = 0.0;
-        }
-        return inverse;
-    }
-
     void write(NumberRecord& out) const {
         for (const bool locked : translation) out.integer(locked);
         for (const bool locked : rotation) out.integer(locked);
