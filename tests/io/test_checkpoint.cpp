@@ -136,7 +136,7 @@ bool same_bits(const talus::detail::NamedArrays& a, const talus::detail::NamedAr
     for (const auto& [name, list] : a.reals) {
         const auto found = b.reals.find(name);
         if (found == b.reals.end() || found->second.size() != list.size() ||
-            std::memcmp(list.data(), found->second.data(), 8 * list.size()) != 0)
+            (!list.empty() && std::memcmp(list.data(), found->second.data(), 8 * list.size()) != 0))
             return false;
     }
     return true;
