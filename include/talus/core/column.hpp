@@ -118,12 +118,14 @@ class Column {
         end_at(begin_ + n);
     }
     void resize(std::size_t n, const T& value) {
-        const T x = value;  // which may be one of its own
+        // Which may be one of its own. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+        const T x = value;
         make_room(n);
         for (T* const end = begin_ + n; end_ < end; ++end_) ::new (static_cast<void*>(end_)) T(x);
         end_at(begin_ + n);
     }
     void assign(std::size_t n, const T& value) {
+        // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
         const T x = value;
         clear();
         resize(n, x);

@@ -113,9 +113,9 @@ class PrescribedMotion {
 
     /// The same motion with a name, by which a checkpoint knows what it cannot write down: a motion
     /// made of functions.
-    PrescribedMotion named(std::string name) const {
+    PrescribedMotion named(const std::string& name) const {
         PrescribedMotion result = *this;
-        result.name_ = std::move(name);
+        result.name_ = name;
         return result;
     }
     const std::string& name() const { return name_; }  ///< empty if it was given none
