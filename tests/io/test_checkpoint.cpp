@@ -396,6 +396,28 @@ BOOST_AUTO_TEST_CASE(a_damaged_file_is_refused) {
     BOOST_TEST(refused > 150);
 }
 
+BOOST_AUTO_TEST_CASE(numbers_of_a_type_without_bytes_are_refused) {
+    const TemporaryFolder folder("checkpoint-types");
+    const auto path = folder / "yard.h5", damaged = folder / "damaged.h5";
+    const Yard<2> yard;
+    talus::save_checkpoint(path, yard.sim, "yard");
+    const std::string whole = content_of(path);
+    // How HDF5 writes down the types of 8 bytes that a checkpoint has; the fifth byte is the 8.
+    int found = 0;
+    for (const std::string& type : {std::string("\x11\x20\x3f\x00\x08\x00\x00\x00", 8),
+                                    std::string("\x10\x08\x00\x00\x08\x00\x00\x00", 8)})
+        for (auto at = whole.find(type); at != std::string::npos; at = whole.find(type, at + 1)) {
+            std::string text = whole;
+            text[at + 4] = '\0';
+            talus::write_file(damaged, text);
+            Yard<2> other;
+            BOOST_CHECK_THROW(talus::load_checkpoint(damaged, other.sim, "yard"),
+                              talus::input_error);
+            ++found;
+        }
+    BOOST_TEST(found > 5);
+}
+
 BOOST_AUTO_TEST_CASE(killed_while_it_writes_the_last_whole_file_stays) {
     const TemporaryFolder folder("checkpoint-killed");
     const auto path = folder / "yard.h5";

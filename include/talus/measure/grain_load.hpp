@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/core/input.hpp>
 #include <talus/problem/contact_problem.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -12,16 +10,14 @@
 namespace talus {
 
 /// Load of every body: the sum of the normal impulses at its contacts [N s], the grey level of
-/// Moreau's drawings ([Moreau] section 3.2). Divide by h for the mean force.
+/// Moreau's drawings ([Moreau] section 3.2). Divide by h for the mean force. Throws input_error for
+/// a contact of a body beyond the count.
 template <int Dim>
 void grain_load(const ContactJacobian<Dim>& jacobian, std::span<const Vector<Dim>> r,
                 std::size_t body_count, std::vector<double>& load) {
+    jacobian.require_bodies(body_count);
     load.assign(body_count, 0.0);
     for (std::size_t c = 0; c < r.size(); ++c) {
-        if (static_cast<std::size_t>(std::max(jacobian.a[c], jacobian.b[c])) >= body_count)
-            throw input_error(detail::numbered("contact", c,
-                                               " of the step is of a body that is gone, but loads "
-                                               "must be asked before bodies are taken out"));
         load[static_cast<std::size_t>(jacobian.a[c])] += r[c][0];
         load[static_cast<std::size_t>(jacobian.b[c])] += r[c][0];
     }

@@ -8,6 +8,7 @@
 #include <talus/stepping/system.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -95,9 +96,7 @@ struct RunSummary {
         turned_too_far += later.turned_too_far;
         drift += later.drift;
         stopped = later.stopped;
-        for (Worst RunSummary::*worst :
-             {&RunSummary::residual, &RunSummary::contact_error, &RunSummary::velocity_error,
-              &RunSummary::overlap, &RunSummary::travel}) {
+        for (const auto worst : all_worst) {
             const Worst& other = later.*worst;
             if (other.value > (this->*worst).value || std::isnan(other.value)) this->*worst = other;
         }
@@ -108,11 +107,12 @@ struct RunSummary {
         for (const std::int64_t k : {steps, missed, short_of_aim, turned_too_far}) out.integer(k);
         out.integer(stopped);
         out.real(drift);
-        for (const Worst* worst : {&residual, &contact_error, &velocity_error, &overlap, &travel}) {
-            out.real(worst->value);
-            out.real(worst->time);
-            out.integer(worst->a);
-            out.integer(worst->b);
+        for (const auto one : all_worst) {
+            const Worst& worst = this->*one;
+            out.real(worst.value);
+            out.real(worst.time);
+            out.integer(worst.a);
+            out.integer(worst.b);
         }
     }
     static RunSummary read(NumberRecordReader& in) {
@@ -121,17 +121,21 @@ struct RunSummary {
             *k = in.integer(0);
         run.stopped = in.integer(0, 1) == 1;
         run.drift = in.real();
-        for (Worst* worst :
-             {&run.residual, &run.contact_error, &run.velocity_error, &run.overlap, &run.travel}) {
-            worst->value = in.real();
-            worst->time = in.real();
-            worst->a = in.integer<BodyIndex>();
-            worst->b = in.integer<BodyIndex>();
+        for (const auto one : all_worst) {
+            Worst& worst = run.*one;
+            worst.value = in.real();
+            worst.time = in.real();
+            worst.a = in.integer<BodyIndex>();
+            worst.b = in.integer<BodyIndex>();
         }
         return run;
     }
 
   private:
+    static constexpr std::array all_worst{&RunSummary::residual, &RunSummary::contact_error,
+                                          &RunSummary::velocity_error, &RunSummary::overlap,
+                                          &RunSummary::travel};
+
     /// Of all pairs, that of the two bodies with the most way beyond their own thickness has the
     /// most together; what has no bounds has no other side.
     template <class System, class Data>
