@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "lab/command.hpp"
-#include "lab/film.hpp"
 #include "lab/picture.hpp"
 #include "lab/rough_floor.hpp"
 #include "lab/run.hpp"
@@ -29,7 +28,7 @@ namespace {
 
 struct Options {
     double dim = 3, count = 1500, radius = 0.005, mu = 0.5, rate = 1000, step = 1e-3, rest = 2.0,
-           rain = 0, frames = 0;
+           rain = 0;
 };
 
 /// Half the width that a heap of that many grains will have, at a slope of 20 degrees [m].
@@ -66,23 +65,20 @@ int pile_up(const lab::Command& command, const Options& o) {
     const std::size_t rings = 12;
     talus::GroundPressure<Dim> pressure(talus::Rings<Dim>(V::Zero(), reach / 1.5 / rings, 18));
 
-    lab::Run run(command, sim);
+    lab::Run<Dim> run(command, sim, "A heap from a point source");
     lab::Mark poured;
     run.carry("inlet", inlet);
     run.carry("poured", poured);
     run.carry("pressure", pressure);
     run.begin();
-    lab::Film<Dim> film(command, "A heap from a point source", o.frames, sim.time());
     const auto pour = [&] {
         inlet.feed(system, sim.time());
-        film.show(sim);
         if (inlet.done()) poured.time = std::min(poured.time, sim.time());
     };
     if (!run.until([&] { return inlet.done(); }, o.count / o.rate, "pouring", pour))
         return run.exit_code();
     std::vector<V> forces;
     const bool whole = run.until(poured.time + o.rest, "resting", [&] {
-        film.show(sim);
         if (sim.time() < poured.time + 0.5 * o.rest) return;  // until it has come to rest
         const auto& jacobian = sim.data().problem.jacobian;
         talus::contact_forces<Dim>(jacobian, sim.data().impulse, o.step, forces);
@@ -136,22 +132,17 @@ int main(int argc, char** argv) {
         lab::Command command("conical_pile",
                              "Grains fall from a point source onto a rough floor and form a heap, "
                              "whose weight on the ground is measured by rings.");
-        command.number("--dim", o.dim, 2, 3, "dimension");
-        command.number("--count", o.count, 14000, 10, 1e6, "grains");
+        command.count("--dim", o.dim, 2, 3, "dimension");
+        command.count("--count", o.count, 14000, 10, 1e6, "grains");
         command.number("--radius", o.radius, 1e-6, 1e3, "mean radius of grains [m]");
         command.number("--mu", o.mu, 0, 1e3, "friction coefficient");
         command.number("--rate", o.rate, 1e-3, 1e6, "grains that fall in a second [1/s]");
         command.number("--step", o.step, 1e-9, 1, "step size [s]");
         command.number("--rest", o.rest, 1e-9, 1e6,
                        "time to rest, and be measured in the second half [s]");
-        command.number("--rain", o.rain, 0, 1,
-                       "1: an even rain on a disc instead of a point source");
-        command.shown_number("--frames", o.frames, 0, 1000,
-                             "of a movie for examples/player, for each second [1/s]; 0: none");
+        command.count("--rain", o.rain, 0, 1,
+                      "1: an even rain on a disc instead of a point source");
         if (!command.read(argc, argv)) return 0;
-        command.require_whole("--dim", o.dim);
-        command.require_whole("--count", o.count);
-        command.require_whole("--rain", o.rain);
         return o.dim == 2 ? pile_up<2>(command, o) : pile_up<3>(command, o);
     });
 }

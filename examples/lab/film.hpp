@@ -1,44 +1,31 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/io/series/movie_series.hpp>
-#include <talus/io/series/schedule.hpp>
+#include <talus/stepping/simulation.hpp>
 
-#include <optional>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "command.hpp"
-#include "picture.hpp"
 
 namespace lab {
 
 /// The movie of an experiment, `movie.jsonl` in its folder, for examples/player; none without
-/// frames. A run that goes on from `begin` [s] goes on with it.
+/// --frames. A run that goes on from `begin` [s] goes on with it.
 template <int Dim>
 class Film {
   public:
-    Film(const Command& command, const std::string& title, double frames_per_second, double begin) {
-        if (!(frames_per_second > 0.0)) return;
-        due_ = talus::Schedule::every(1.0 / frames_per_second, begin);
-        const talus::MovieWords words{title, "load", "N"};
-        const auto file = command.out() / "movie.jsonl";
-        if (begin > 0.0 && !command.fresh())
-            movie_.emplace(talus::MovieSeries<Dim>::resumed(file, words, begin));
-        else
-            movie_.emplace(file, words);
-    }
+    Film(const Command& command, const std::string& title, double begin);
+    ~Film();
     /// After each step, before bodies are taken out.
-    template <class Sim>
-    void show(const Sim& sim) {
-        if (!movie_ || !due_->due(sim)) return;
-        const std::vector<double> load = loads<Dim>(sim);
-        movie_->add(sim.time(), sim.system().bodies, sim.system().shapes(), load);
-    }
+    void show(const talus::Simulation<Dim>& sim);
 
   private:
-    std::optional<talus::Schedule> due_;
-    std::optional<talus::MovieSeries<Dim>> movie_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
+
+extern template class Film<2>;
+extern template class Film<3>;
 
 }  // namespace lab

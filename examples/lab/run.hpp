@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/io/checkpoint/checkpoint.hpp>
-#include <talus/io/series/schedule.hpp>
+#include <talus/core/number_record.hpp>
 #include <talus/stepping/run_summary.hpp>
+#include <talus/stepping/simulation.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <concepts>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
-#include "../pile/made_folder.hpp"
-#include "../pile/progress.hpp"
-#include "../pile/stop_request.hpp"
 #include "command.hpp"
+#include "film.hpp"
 
 namespace lab {
 
@@ -36,22 +31,14 @@ struct Mark {
     static Mark read(talus::NumberRecordReader& in) { return {in.real()}; }
 };
 
-/// The run of an experiment: it begins where its checkpoint is, shows how long it will take, writes
-/// a checkpoint every so often and at the end, and remembers whether its steps can be believed.
-template <class Sim>
+/// The run of an experiment: it begins where its checkpoint is, shows how long it will take, films,
+/// writes a checkpoint every so often and at the end, and remembers whether its steps can be
+/// believed.
+template <int Dim>
 class Run {
   public:
     /// Makes the folder for results. Throws input_error if it cannot be written.
-    Run(const Command& command, Sim& sim) : command_(command), sim_(sim) {
-        try {
-            pile::MadeFolder folder(command.out());
-            talus::require_writable(file());
-            folder.keep();
-        } catch (const std::runtime_error& error) {
-            throw talus::input_error(std::string("--out: ") + error.what());
-        }
-        pile::StopRequest::listen();
-    }
+    Run(const Command& command, talus::Simulation<Dim>& sim, std::string title);
 
     /// What is taken up with the run: random numbers, inlets, ledgers. Before `begin`.
     template <Carried T>
@@ -67,100 +54,40 @@ class Run {
 
     /// Goes to the last checkpoint, if there is one. Throws input_error if it is of another
     /// experiment, or of other options, or damaged.
-    void begin() {
-        carry("summary", summary_);
-        if (command_.fresh() || !std::filesystem::exists(file())) return;
-        try {
-            const auto records = talus::load_checkpoint(file(), sim_, command_.label());
-            for (const auto& [name, thing] : things_) {
-                const auto found = records.find(name);
-                if (found == records.end())
-                    throw talus::input_error(name + " is missing, but must be there");
-                thing.second(found->second);
-            }
-        } catch (const talus::input_error& error) {
-            throw talus::input_error(std::string(error.what()) + " (--fresh begins anew)");
-        }
-        std::fprintf(stderr, "%s: goes on at %.6g s\n", command_.name().c_str(), sim_.time());
-    }
+    void begin();
 
+    using Each = std::function<void()>;
     /// Steps until the clock shows `time` [s], `each()` after each step. False if the user stopped
     /// it on the way: the program then ends.
-    template <class Each>
-    bool until(double time, const std::string& label, Each&& each) {
-        const double h = sim_.params().h;
-        return until([&] { return sim_.time() >= time - 0.5 * h; }, time, label, each);
-    }
+    bool until(double time, const std::string& label, const Each& each = {});
     /// Steps until `over()`, which will be at about the time `expected` [s].
-    template <std::predicate Over, class Each>
-    bool until(Over&& over, double expected, const std::string& label, Each&& each) {
-        pile::Progress progress(label);
-        const double begin = sim_.time();
-        double next_save = command_.save_every();
-        while (!over() && pile::StopRequest::signal() == 0) {
-            sim_.step();
-            summary_.record(sim_.system(), sim_.data());
-            stepped_ = true;
-            const std::size_t contacts = sim_.data().contact_count();
-            each();
-            const double share =
-                over() ? 1.0 : std::min((sim_.time() - begin) / (expected - begin), 0.99);
-            if (!command_.quiet() && progress.due(share)) {
-                char remark[100];
-                std::snprintf(remark, sizeof remark, "%zu bodies, %zu contacts, t = %.4g s",
-                              sim_.system().bodies.count(), contacts, sim_.time());
-                progress.show(share, remark);
-            }
-            if (progress.seconds() > next_save) {
-                save();
-                next_save = progress.seconds() + command_.save_every();
-            }
-        }
-        if (sim_.time() > begin) save();
-        return pile::StopRequest::signal() == 0;
-    }
-    void save() {
-        talus::CheckpointRecords records;
-        for (const auto& [name, thing] : things_) records[name] = thing.first();
-        talus::save_checkpoint(file(), sim_, command_.label(), records);
-    }
+    bool until(const std::function<bool()>& over, double expected, const std::string& label,
+               const Each& each = {});
 
     std::filesystem::path file() const { return command_.out() / "checkpoint.h5"; }
     /// Whether there is a last step to be looked at: a run that was over had none.
     bool stepped() const { return stepped_; }
     const talus::RunSummary& summary() const { return summary_; }
-    int exit_code() const {
-        if (const int signal = pile::StopRequest::signal()) return ExitCode::stopped + signal;
-        return summary_.certified() ? ExitCode::certified : ExitCode::not_certified;
-    }
+    int exit_code() const;
 
   private:
+    void save();
+
     const Command& command_;
-    Sim& sim_;
+    talus::Simulation<Dim>& sim_;
+    std::string title_;
     std::map<std::string, std::pair<std::function<talus::NumberRecord()>,
                                     std::function<void(const talus::NumberRecord&)>>>
         things_;
+    std::optional<Film<Dim>> film_;
     talus::RunSummary summary_;
     bool stepped_ = false;
 };
 
+extern template class Run<2>;
+extern template class Run<3>;
+
 /// Runs an experiment and turns whatever it throws into a sentence and an exit code.
-template <class Experiment>
-int run_program(const std::string& name, Experiment&& experiment) {
-    const auto complain = [&](const std::exception& error) {
-        std::fprintf(stderr, "%s: %s\n", name.c_str(),
-                     talus::detail::printable(error.what()).c_str());
-    };
-    talus::silence_hdf5();
-    try {
-        return experiment();
-    } catch (const talus::input_error& error) {
-        complain(error);
-        return ExitCode::wrong_input;
-    } catch (const std::exception& error) {
-        complain(error);
-        return ExitCode::failed;
-    }
-}
+int run_program(const std::string& name, const std::function<int()>& experiment);
 
 }  // namespace lab

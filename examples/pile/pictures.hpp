@@ -6,8 +6,6 @@
 #include <talus/io/vtk.hpp>
 #include <talus/io/write_file.hpp>
 #include <talus/measure/grain_load.hpp>
-#include <talus/sample/random_polygon.hpp>
-#include <talus/sample/random_polyhedron.hpp>
 #include <talus/sample/scene.hpp>
 
 #include <cmath>
@@ -18,17 +16,6 @@
 #include <vector>
 
 namespace pile {
-
-/// Corners of a random grain: a polygon in the plane, a polyhedron in space.
-template <int Dim>
-struct RandomGrain {
-    std::vector<talus::Vector<Dim>> operator()(talus::Random& random, double radius) const {
-        if constexpr (Dim == 2)
-            return talus::random_polygon(random, radius);
-        else
-            return talus::random_polyhedron(random, radius);
-    }
-};
 
 /// A point of the plane or of space as a point of space, the plane upright.
 inline talus::Vector<3> in_space(const talus::Vector<2>& p) { return {p[0], p[1], 0.0}; }

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "../random_grain.hpp"
 #include "chosen_solver.hpp"
 #include "job.hpp"
 #include "pictures.hpp"

@@ -23,8 +23,8 @@ inline constexpr std::size_t max_child_count = std::size_t{1} << 12;
 template <int Dim>
 requires SpaceDimension<Dim>
 struct BoundingBall {
-    Vector<Dim> centre;  ///< in the frame of the shape [m]
-    double radius;       ///< [m]
+    Vector<Dim> centre = Vector<Dim>::Zero();  ///< in the frame of the shape [m]
+    double radius = 0.0;                       ///< [m]
 };
 
 /// Exact for balls, that of the box for rounded cores, and for shapes that tell no more than their

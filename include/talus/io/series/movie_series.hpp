@@ -133,7 +133,7 @@ class MovieFile {
     }
     /// What stands in a header at a name; empty if that is not there.
     static std::string_view value_of(std::string_view line, std::string_view name) {
-        const std::string before = "\"" + std::string(name) + "\":";
+        const std::string before = std::string(1, '"').append(name).append("\":");
         const std::size_t found = line.find(before);
         if (found == std::string_view::npos) return {};
         const std::size_t begin = found + before.size();
