@@ -8,7 +8,6 @@
 //               examples/run conical_pile --dim 2 --count 2000
 //               examples/run conical_pile --full --out cone
 #include <talus/feed/inlet.hpp>
-#include <talus/io/series/csv_series.hpp>
 #include <talus/measure/rings.hpp>
 #include <talus/measure/stress.hpp>
 #include <talus/stepping/simulation.hpp>
@@ -23,6 +22,7 @@
 #include "lab/picture.hpp"
 #include "lab/rough_floor.hpp"
 #include "lab/run.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -96,23 +96,24 @@ int pile_up(const lab::Command& command, const Options& o) {
                                [&](std::size_t i) { return i >= ground; });
     std::vector<double> middle, flank;
     double largest = 0.0;
-    talus::CsvSeries table(command.out() / "rings.csv",
-                           {{"pressure", Dim == 2 ? "N/m" : "Pa"}, {"height", "m"}});
+    std::vector<std::vector<double>> rows;
     std::printf("ring at [mm]   pressure [%s]   height [mm]\n", Dim == 2 ? "N/m" : "Pa");
     for (std::size_t k = 0; k < pressure.rings().count() && pressure.pressure(k) > 0.0; ++k) {
         middle.push_back(pressure.rings().middle(k));
         flank.push_back(k >= 2 ? heights[k] : std::nan(""));
         largest = std::max(largest, pressure.pressure(k));
-        table.add(middle[k], {pressure.pressure(k), heights[k]});
+        rows.push_back({middle[k], pressure.pressure(k), heights[k]});
         std::printf("%12.1f   %13.4g   %11.1f\n", 1e3 * middle[k], pressure.pressure(k),
                     1e3 * heights[k]);
     }
+    lab::write_table(command.out() / "rings.csv",
+                     {{"ring at", "m"}, {"pressure", Dim == 2 ? "N/m" : "Pa"}, {"height", "m"}},
+                     rows);
     const talus::LineFit slope = talus::fit_line(middle, flank);
     std::printf("%lld grains; the ground carries %.4f of their weight\n",
                 static_cast<long long>(inlet.count()), pressure.force() / weight);
     std::printf("slope %.1f degrees; pressure under the summit over the largest: %.2f\n",
                 slope.angle() * 180.0 / std::numbers::pi, pressure.pressure(0) / largest);
-    std::printf("%s\n", to_string(run.summary()).c_str());
 
     lab::PictureParams look;
     look.title = "A heap from a point source on a rough floor";
@@ -120,8 +121,8 @@ int pile_up(const lab::Command& command, const Options& o) {
     look.unit_name = "mean weights";
     const double shown = 0.8 * reach, floor = Dim == 2 ? -2.0 * o.radius : -shown;
     look.window = {{-shown, floor}, {shown, Dim == 2 ? 0.45 * shown : shown}};
-    if (run.stepped()) lab::write_picture<Dim>(command.out() / "heap.svg", sim, look);
-    return run.exit_code();
+    lab::write_picture<Dim>(command.out() / "heap.svg", sim, look);
+    return run.finish();
 }
 
 }  // namespace

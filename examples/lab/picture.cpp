@@ -90,6 +90,13 @@ void add_outlines(const talus::ShapeView<2>& shape, const talus::Pose<2>& pose, 
     out.push_back(std::move(drawn));
 }
 
+/// Whether a body is no grain: an obstacle, or a lid.
+template <int Dim>
+bool is_wall(const talus::Simulation<Dim>& sim, std::size_t i) {
+    const auto kind = talus::view_of<Dim>(sim.system().shapes()[i]).kind();
+    return sim.system().bodies.is_obstacle(i) || kind == talus::ShapeKind::half_space;
+}
+
 /// Contacts of the last step as segments from centre to centre; what is no grain ends at the point.
 template <int Dim>
 std::vector<talus::DrawnContact<Dim>> drawn_contacts(const talus::Simulation<Dim>& sim) {
@@ -100,7 +107,7 @@ std::vector<talus::DrawnContact<Dim>> drawn_contacts(const talus::Simulation<Dim
     for (std::size_t c = 0; c < data.contact_count(); ++c) {
         const talus::Vector<Dim>& point = data.contacts.point[c];
         const auto end = [&](talus::BodyIndex body) {
-            return bodies.is_obstacle(body) ? point : bodies.position[body];
+            return is_wall(sim, static_cast<std::size_t>(body)) ? point : bodies.position[body];
         };
         contacts.push_back({end(data.contacts.key[c].a), point, end(data.contacts.key[c].b),
                             data.impulse[c].norm() / data.h});
@@ -115,10 +122,11 @@ std::string picture(const talus::Simulation<2>& sim, const PictureParams& params
     drawing.window = params.window;
     drawing.title = params.title;
     drawing.captions = params.captions;
+    drawing.lines = params.lines;
     const double size = (params.window.second - params.window.first).norm();
     const std::vector<double> load = loads(sim);
     for (std::size_t i = 0; i < system.bodies.count(); ++i) {
-        auto& list = system.bodies.is_obstacle(i) ? drawing.obstacles : drawing.grains;
+        auto& list = is_wall(sim, i) ? drawing.obstacles : drawing.grains;
         add_outlines(talus::view_of<2>(system.shapes()[i]), system.bodies.pose(i), load[i], size,
                      list);
     }
@@ -136,7 +144,7 @@ std::string picture(const talus::Simulation<3>& sim, const PictureParams& params
         for (auto* p : {&c.from, &c.point, &c.to}) *p += shift;
     const std::vector<double> load = loads(sim);
     for (std::size_t i = 0; i < system.bodies.count(); ++i) {
-        if (system.bodies.is_obstacle(i)) continue;
+        if (is_wall(sim, i)) continue;
         const talus::Vector<3> centre = system.bodies.position[i] + shift;
         const auto view = talus::view_of<3>(system.shapes()[i]);
         const double radius = view.has_core() ? view.core().bound : system.bounding_radius()[i];

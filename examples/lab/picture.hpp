@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/io/pile_drawing.hpp>
 #include <talus/stepping/simulation.hpp>
 
 #include <filesystem>
@@ -19,6 +20,7 @@ struct PictureParams {
     std::pair<Point, Point> window{Point::Zero(), Point::Ones()};  ///< of the plane [m]
     double unit = 1.0;                                             ///< of forces [N]
     std::string unit_name = "N";
+    std::vector<talus::DrawnLine> lines = {};  ///< over it; of the plane alone
 };
 
 /// Mean force over the last step on each body, half the sum of its contacts' magnitudes [N].

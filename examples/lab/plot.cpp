@@ -73,8 +73,8 @@ void write_plot(const std::filesystem::path& file, const Plot& plot) {
     x.widen();
     y.widen();
 
-    const Point size(8.0, 5.0), corner(0.9, 0.75), far(7.8, 4.35);  // in units of 100 pixels
-    Svg svg(Point::Zero(), size, 800.0);
+    const Point size(10.2, 5.0), corner(0.9, 0.75), far(7.8, 4.35);  // in units of 100 pixels
+    Svg svg(Point::Zero(), size, 1020.0);
     const auto at = [&](double a, double b) {
         return Point(corner[0] + x.share(a) * (far[0] - corner[0]),
                      corner[1] + y.share(b) * (far[1] - corner[1]));
@@ -117,9 +117,13 @@ void write_plot(const std::filesystem::path& file, const Plot& plot) {
         }
         flush();
         if (c.name.empty()) continue;
-        const Point key(far[0] - 0.15, line);
-        svg.text(key, c.name, {.size = 0.15, .anchor = "end", .fill = colour, .bold = true});
-        line -= 0.22;
+        const Point key(far[0] + 0.15, line);
+        if (c.points)
+            svg.circle(key + Point(0.1, 0.05), 0.045, {.fill = colour});
+        else
+            svg.line(key + Point(0.0, 0.05), key + Point(0.2, 0.05), stroke);
+        svg.text(key + Point(0.3, 0.0), c.name, {.size = 0.15});
+        line -= 0.25;
     }
     talus::write_file(file, svg.str());
 }

@@ -5,6 +5,7 @@
 #include <talus/io/checkpoint/checkpoint.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -16,10 +17,15 @@
 namespace lab {
 
 template <int Dim>
-Run<Dim>::Run(const Command& command, talus::Simulation<Dim>& sim, std::string title)
-    : command_(command), sim_(sim), title_(std::move(title)) {
+Run<Dim>::Run(const Command& command, talus::Simulation<Dim>& sim, std::string title,
+              const std::string& part)
+    : command_(command),
+      sim_(sim),
+      folder_(part.empty() ? command.out() : command.out() / part),
+      title_(std::move(title)),
+      label_(part.empty() ? command.label() : command.label() + " " + part) {
     try {
-        pile::MadeFolder folder(command.out());
+        pile::MadeFolder folder(folder_);
         talus::require_writable(file());
         folder.keep();
     } catch (const std::runtime_error& error) {
@@ -31,16 +37,26 @@ Run<Dim>::Run(const Command& command, talus::Simulation<Dim>& sim, std::string t
 template <int Dim>
 void Run<Dim>::begin() {
     carry("summary", summary_);
-    if (!command_.fresh() && std::filesystem::exists(file())) {
+    for (const auto& [name, thing] : things_) talus::require_record_name(name);
+    goes_on_ = !command_.fresh() && std::filesystem::exists(file());
+    if (goes_on_) {
         try {
-            const auto records = talus::load_checkpoint(file(), sim_, command_.label());
+            const auto records = talus::load_checkpoint(file(), sim_, label_);
             for (const auto& [name, thing] : things_) thing.second(records.at(name));
         } catch (const talus::input_error& error) {
             throw talus::input_error(std::string(error.what()) + " (--fresh begins anew)");
         }
         std::fprintf(stderr, "%s: goes on at %.6g s\n", command_.name().c_str(), sim_.time());
     }
-    film_.emplace(command_, title_, sim_.time());
+    film_.emplace(command_, folder_, title_, sim_.time());
+}
+
+template <int Dim>
+talus::CsvSeries Run<Dim>::series(const std::string& name,
+                                  const std::vector<talus::CsvSeries::Column>& columns) const {
+    const auto path = folder_ / name;
+    return goes_on_ ? talus::CsvSeries::resumed(path, columns, sim_.time())
+                    : talus::CsvSeries(path, columns);
 }
 
 template <int Dim>
@@ -54,11 +70,13 @@ bool Run<Dim>::until(const std::function<bool()>& over, double expected, const s
                      const Each& each) {
     pile::Progress progress(label);
     const double begin = sim_.time();
-    double next_save = command_.save_every();
-    while (!over() && pile::StopRequest::signal() == 0) {
+    while (!over()) {
+        // Before a step: who goes on from there has a last step to measure.
+        const bool stopped = pile::StopRequest::signal() != 0;
+        if (stopped || since_save() > command_.save_every()) save(file());
+        if (stopped) return false;
         sim_.step();
         summary_.record(sim_.system(), sim_.data());
-        stepped_ = true;
         const std::size_t contacts = sim_.data().contact_count();
         film_->show(sim_);
         if (each) each();
@@ -70,20 +88,28 @@ bool Run<Dim>::until(const std::function<bool()>& over, double expected, const s
                           sim_.system().bodies.count(), contacts, sim_.time());
             progress.show(share, remark);
         }
-        if (progress.seconds() > next_save) {
-            save();
-            next_save = progress.seconds() + command_.save_every();
-        }
     }
-    if (sim_.time() > begin) save();
-    return pile::StopRequest::signal() == 0;
+    return true;
 }
 
 template <int Dim>
-void Run<Dim>::save() {
+void Run<Dim>::save(const std::filesystem::path& path) {
     talus::CheckpointRecords records;
     for (const auto& [name, thing] : things_) records[name] = thing.first();
-    talus::save_checkpoint(file(), sim_, command_.label(), records);
+    talus::save_checkpoint(path, sim_, label_, records);
+    saved_ = std::chrono::steady_clock::now();
+}
+
+template <int Dim>
+double Run<Dim>::since_save() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - saved_).count();
+}
+
+template <int Dim>
+int Run<Dim>::finish() {
+    save(folder_ / "end.h5");
+    std::printf("%s\n", to_string(summary_).c_str());
+    return exit_code();
 }
 
 template <int Dim>

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <talus/core/number_record.hpp>
+#include <talus/io/series/csv_series.hpp>
 #include <talus/stepping/run_summary.hpp>
 #include <talus/stepping/simulation.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -12,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "command.hpp"
 #include "film.hpp"
@@ -31,14 +34,22 @@ struct Mark {
     static Mark read(talus::NumberRecordReader& in) { return {in.real()}; }
 };
 
+/// A number that is carried along.
+struct Real {
+    double value = 0.0;
+    void write(talus::NumberRecord& out) const { out.real(value); }
+    static Real read(talus::NumberRecordReader& in) { return {in.real()}; }
+};
+
 /// The run of an experiment: it begins where its checkpoint is, shows how long it will take, films,
-/// writes a checkpoint every so often and at the end, and remembers whether its steps can be
-/// believed.
+/// writes a checkpoint every so often, and remembers whether its steps can be believed.
 template <int Dim>
 class Run {
   public:
-    /// Makes the folder for results. Throws input_error if it cannot be written.
-    Run(const Command& command, talus::Simulation<Dim>& sim, std::string title);
+    /// Makes the folder for results, and in it, for one of several runs of an experiment, that of
+    /// the part of this name. Throws input_error if it cannot be written.
+    Run(const Command& command, talus::Simulation<Dim>& sim, std::string title,
+        const std::string& part = "");
 
     /// What is taken up with the run: random numbers, inlets, ledgers. Before `begin`.
     template <Carried T>
@@ -56,32 +67,45 @@ class Run {
     /// experiment, or of other options, or damaged.
     void begin();
 
+    /// A table `name` in its folder that grows with time: where the run goes on, after the rows
+    /// up to there. After `begin`.
+    talus::CsvSeries series(const std::string& name,
+                            const std::vector<talus::CsvSeries::Column>& columns) const;
+
     using Each = std::function<void()>;
     /// Steps until the clock shows `time` [s], `each()` after each step. False if the user stopped
-    /// it on the way: the program then ends.
+    /// it on the way: the program then ends. The simulation has a last step to be measured after
+    /// it, however often the run was killed: a checkpoint is written before a step alone.
     bool until(double time, const std::string& label, const Each& each = {});
     /// Steps until `over()`, which will be at about the time `expected` [s].
     bool until(const std::function<bool()>& over, double expected, const std::string& label,
                const Each& each = {});
 
-    std::filesystem::path file() const { return command_.out() / "checkpoint.h5"; }
-    /// Whether there is a last step to be looked at: a run that was over had none.
-    bool stepped() const { return stepped_; }
-    const talus::RunSummary& summary() const { return summary_; }
+    /// Where all of this run is written.
+    const std::filesystem::path& folder() const { return folder_; }
+    /// When all has been measured: writes the state at the end, `end.h5`, for other programs,
+    /// prints whether the run can be believed, and returns the exit code.
+    int finish();
+    /// Of a run that was stopped, or is over.
     int exit_code() const;
+    const talus::RunSummary& summary() const { return summary_; }
 
   private:
-    void save();
+    std::filesystem::path file() const { return folder_ / "checkpoint.h5"; }
+    void save(const std::filesystem::path& path);
+    double since_save() const;  ///< [s] of work
 
     const Command& command_;
     talus::Simulation<Dim>& sim_;
-    std::string title_;
+    std::filesystem::path folder_;
+    std::string title_, label_;
     std::map<std::string, std::pair<std::function<talus::NumberRecord()>,
                                     std::function<void(const talus::NumberRecord&)>>>
         things_;
     std::optional<Film<Dim>> film_;
+    bool goes_on_ = false;
     talus::RunSummary summary_;
-    bool stepped_ = false;
+    std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };
 
 extern template class Run<2>;

@@ -64,6 +64,19 @@ BOOST_AUTO_TEST_CASE(the_picture_of_the_plane_shows_every_grain_and_every_strong
     BOOST_CHECK_EQUAL(occurrences(talus::pile_svg(pile), "<polyline"), 3u);
 }
 
+BOOST_AUTO_TEST_CASE(lines_lie_on_top_and_must_be_drawable) {
+    auto pile = two_grains();
+    pile.lines = {{{{0.1, 0.1}, {0.2, 0.3}, {0.4, 0.1}}, "#123456", 0.5}};
+    const std::string text = talus::pile_svg(pile);
+    BOOST_CHECK_EQUAL(occurrences(text, "<polyline"), 3u);
+    BOOST_CHECK_GT(text.find("#123456"), text.find(talus::detail::chain_colour));
+    pile.lines[0].width = 0.0;
+    BOOST_CHECK_THROW(talus::pile_svg(pile), talus::input_error);
+    pile.lines[0].width = 0.5;
+    pile.lines[0].points[1][0] = std::nan("");
+    BOOST_CHECK_THROW(talus::pile_svg(pile), talus::input_error);
+}
+
 BOOST_AUTO_TEST_CASE(a_heavier_load_is_darker) {
     const talus::detail::GreyScale grey{10.0, 0.3, 0.9};
     BOOST_CHECK_EQUAL(grey.lightness(0.0), 0.9);

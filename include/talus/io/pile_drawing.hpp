@@ -21,6 +21,13 @@ struct DrawnGrain {
     std::vector<Vector<2>> outline = {};   ///< corners in the world [m]; none for a disc
 };
 
+/// A line laid over the picture: a surface, a cut, a region that was measured.
+struct DrawnLine {
+    std::vector<Vector<2>> points;  ///< [m]
+    std::string colour = "#0057b8";
+    double width = 0.15;  ///< over the mean grain diameter [-]
+};
+
 /// A pile of the plane to draw, as plain numbers.
 struct PileDrawing {
     double box_width = 0.0;  ///< walls at x = 0 and here, floor at y = 0 [m]
@@ -31,6 +38,7 @@ struct PileDrawing {
     std::vector<DrawnGrain> obstacles = {};  ///< dark, whatever their load
     /// Shows what lies between two corners [m], without the box. What reaches out of them is cut.
     std::optional<std::pair<Vector<2>, Vector<2>>> window = {};
+    std::vector<DrawnLine> lines = {};  ///< on top of all
 };
 
 namespace detail {
@@ -57,6 +65,10 @@ inline void require_drawable(const PileDrawing& pile) {
         require_in(name + ": load [N]", g.load, -1e300, 1e300);
         require_finite(name + ": centre", g.centre);
         for (const auto& p : g.outline) require_finite(name + ": outline", p);
+    }
+    for (const DrawnLine& line : pile.lines) {
+        require_positive("width of a drawn line", line.width);
+        for (const auto& p : line.points) require_finite("drawn line", p);
     }
     require_drawable<2>(pile.contacts);
 }
@@ -130,6 +142,11 @@ inline std::string pile_svg(const PileDrawing& pile, const DrawingParams& params
     detail::draw_obstacles(svg, pile);
     detail::draw_grains(svg, pile, grey, 0.035 * diameter);
     detail::draw_chains(svg, pile, widths);
+    for (const DrawnLine& line : pile.lines)
+        svg.polyline(line.points, {.fill = "none",
+                                   .stroke = line.colour,
+                                   .stroke_width = line.width * diameter,
+                                   .round = true});
     if (pile.window) {
         svg.close_group();
     } else {

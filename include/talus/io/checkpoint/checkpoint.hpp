@@ -45,20 +45,22 @@ concept Resumable = requires(S& sim, const S& same) {
     sim.restore(same.state());
 };
 
-namespace detail {
-
-inline constexpr const char* checkpoint_format = "talus checkpoint";
-inline constexpr int checkpoint_version = 1;
-
+/// Throws input_error unless a record can be called so: what carries records along asks before a
+/// run, not at the first checkpoint.
 inline void require_record_name(const std::string& name) {
     constexpr std::string_view letters =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
     constexpr std::size_t longest = 100;
     if (name.empty() || name.size() > longest || name == "." || name == ".." ||
         name.find_first_not_of(letters) != std::string::npos)
-        throw input_error("name of a record is '" + printable(name, 40) +
+        throw input_error("name of a record is '" + detail::printable(name, 40) +
                           "', but must be 1 to 100 letters, digits, _, - or .");
 }
+
+namespace detail {
+
+inline constexpr const char* checkpoint_format = "talus checkpoint";
+inline constexpr int checkpoint_version = 1;
 
 template <class State>
 struct StateTypes;
@@ -120,7 +122,7 @@ void save_checkpoint(const std::filesystem::path& path, const Sim& sim,
     detail::NamedArrays arrays = detail::arrays_of(sim.state());
     arrays.texts["experiment"] = experiment;
     for (const auto& [name, record] : records) {
-        detail::require_record_name(name);
+        require_record_name(name);
         arrays.put("records/" + name, record);
     }
     detail::write_arrays(path, detail::checkpoint_format, detail::checkpoint_version, arrays);

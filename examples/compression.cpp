@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSL-1.0
+//
+// Grains pressed from all sides, in the plane and in space by the same text, without friction and
+// with it. Without, a packing of balls at rest has as many contacts that bear as it has degrees of
+// freedom, not one more [Moukarzel 1998]: counted here. With friction it is looser, with fewer
+// contacts. And what do oversized grains change, as section 3.1 of Moreau's paper asks? The same
+// box is filled with grains of up to 2.25 times the size.
+//
+// Sample runs:  examples/run compression
+//               examples/run compression --count 300 --mu 0.3
+//               examples/run compression --full
+#include <talus/measure/rings.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "lab/command.hpp"
+#include "lab/packing.hpp"
+#include "lab/picture.hpp"
+#include "lab/press.hpp"
+#include "lab/run.hpp"
+#include "lab/table.hpp"
+
+namespace {
+
+struct Options {
+    double count = 600, radius = 0.005, ratio = 1.4, mu = 0.5, pressure = 1e4, press = 1.0,
+           rest = 0.2, step = 5e-4, fine = 1e-7;
+};
+
+/// Presses grains `size` times as large as the finest into a box; false if the user stopped it.
+template <int Dim>
+bool compress(const lab::Command& command, const Options& o, double mu, double size,
+              lab::Packing& p, int& code) {
+    talus::MaterialTable<talus::DefaultLaw<Dim>> laws(2, {talus::Coulomb<Dim>{0.0}});
+    laws.set(0, 0, {talus::Coulomb<Dim>{mu}});
+    talus::Simulation<Dim> sim(laws,
+                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
+    const double smallest = 2.0 * size * o.radius / (1.0 + o.ratio);
+    const auto count = static_cast<std::size_t>(o.count / std::pow(size, Dim));
+    lab::PressedBox<Dim> box(sim.system(), std::max<std::size_t>(count, 2),
+                             talus::UniformRadii(smallest, o.ratio * smallest), false, 1,
+                             command.seed());
+    for (int axis = 0; axis < Dim; ++axis) box.add_lid(sim.system(), axis, o.pressure, 1.0);
+    char part[40];
+    std::snprintf(part, sizeof part, "%dd-mu-%g-size-%g", Dim, mu, size);
+    lab::Run<Dim> run(command, sim, "Grains pressed from all sides", part);
+    run.begin();
+    bool whole = run.until(o.press, std::string(part) + " pressing");
+    if (whole) {
+        // Which contacts bear is told apart at rest, and solved accurately.
+        sim.solver() = talus::AcceleratedGaussSeidel<Dim, talus::DefaultLaw<Dim>>(
+            {.max_iterations = 200000,
+             .tolerance = o.fine,
+             .acceleration = talus::Acceleration::nesterov});
+        whole = run.until(o.press + o.rest, std::string(part) + " resting");
+    }
+    if (whole) {
+        p = lab::measure_packing(sim, box, mu);
+        lab::PictureParams look;
+        look.title = mu > 0.0 ? "Grains pressed from all sides" : "The same without friction";
+        look.unit = o.pressure * std::pow(2.0 * o.radius, Dim - 1);
+        look.unit_name = Dim == 2 ? "p d" : "p d\u00b2";
+        const auto end = [&](int axis) { return box.extent(sim.system().bodies, axis); };
+        const lab::Point edge(4.0 * o.radius, 4.0 * o.radius);
+        look.window = {-edge, lab::Point(end(0), end(1)) + edge};
+        lab::write_picture<Dim>(run.folder() / "packing.svg", sim, look);
+    }
+    code = std::max(code, whole ? run.finish() : run.exit_code());
+    return whole;
+}
+
+template <int Dim>
+bool compare_sizes(const lab::Command& command, const Options& o, double mu,
+                   std::vector<std::vector<double>>& rows, int& code) {
+    std::vector<double> x, solid;
+    for (const double size : {2.25, 1.5, 1.0}) {
+        lab::Packing p;
+        if (!compress<Dim>(command, o, mu, size, p, code)) return false;
+        std::printf(
+            "%dD, mu %g, %g grains: solid fraction %.3f, %.2f contacts a grain; bearing "
+            "contacts %g, degrees of freedom %g\n",
+            Dim, mu, p.grains, p.solid, p.coordination(), p.contacts, p.freedom);
+        rows.push_back(
+            {double{Dim}, mu, size, p.grains, p.solid, p.coordination(), p.contacts, p.freedom});
+        x.push_back(size);
+        solid.push_back(p.solid);
+    }
+    const char* expected[2][2] = {{"0.84", "0.79 to 0.82"}, {"0.64", "0.59 to 0.61"}};
+    std::printf(
+        "    walls take room of the size of grains: without, the solid fraction would be "
+        "%.3f (far from walls %s)\n",
+        talus::fit_line(x, solid).at_zero, expected[Dim - 2][mu > 0.0 ? 1 : 0]);
+    return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return lab::run_program("compression", [&] {
+        Options o;
+        lab::Command command(
+            "compression",
+            "Balls are pressed from all sides, in the plane and in space, without "
+            "friction and with it, of three sizes: contacts and degrees of freedom "
+            "are counted.");
+        command.count("--count", o.count, 4000, 100, 1e6, "of the finest grains");
+        command.number("--radius", o.radius, 1e-6, 1e3, "mean radius of the finest grains [m]");
+        command.number("--ratio", o.ratio, 1, 10, "largest over smallest radius");
+        command.number("--mu", o.mu, 1e-3, 1e3, "friction coefficient of grains, where there is");
+        command.number("--pressure", o.pressure, 1e-9, 1e12, "of the lids [N/m; in space Pa]");
+        command.number("--press", o.press, 1e-6, 1e6, "time to press [s]");
+        command.number("--rest", o.rest, 1e-6, 1e6, "time to rest, solved accurately [s]");
+        command.number("--step", o.step, 1e-9, 1, "step size [s]");
+        command.number("--fine", o.fine, 1e-12, 1e-3, "tolerance at rest");
+        if (!command.read(argc, argv)) return 0;
+        std::vector<std::vector<double>> rows;
+        int code = 0;
+        for (const double mu : {0.0, o.mu})
+            if (!compare_sizes<2>(command, o, mu, rows, code) ||
+                !compare_sizes<3>(command, o, mu, rows, code))
+                return code;
+        lab::write_table(command.out() / "packings.csv",
+                         {{"dimension", "-"},
+                          {"mu", "-"},
+                          {"size", "-"},
+                          {"grains", "-"},
+                          {"solid fraction", "-"},
+                          {"contacts a grain", "-"},
+                          {"bearing contacts", "-"},
+                          {"degrees of freedom", "-"}},
+                         rows);
+        return code;
+    });
+}

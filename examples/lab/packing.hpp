@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/measure/contact_network.hpp>
+#include <talus/stepping/simulation.hpp>
+
+#include <cstddef>
+#include <span>
+
+#include "press.hpp"
+
+namespace lab {
+
+/// What bears in a packing of balls; those that bear nothing are left out.
+struct Packing {
+    double grains = 0, solid = 0;                ///< [-]
+    double contacts = 0, freedom = 0, ends = 0;  ///< that bear; of grains that do; on such grains
+    double bearing = 0;                          ///< grains that bear
+    double coordination() const { return ends / bearing; }
+};
+
+/// The grains of a box whose axes all have lids, after a step, with their friction coefficient.
+template <int Dim>
+Packing measure_packing(const talus::Simulation<Dim>& sim, const PressedBox<Dim>& box, double mu) {
+    const auto& bodies = sim.system().bodies;
+    const auto& data = sim.data();
+    const std::span<const talus::Vector<Dim>> impulses(data.impulse.begin(), data.impulse.end());
+    // Without friction a ball is held by Dim + 1 others, with it by two.
+    const auto network = talus::contact_network<Dim>(
+        bodies, data.contacts, impulses, {.least_contacts = mu > 0.0 ? 2 : Dim + std::size_t{1}});
+    Packing p;
+    p.grains = static_cast<double>(box.grains());
+    p.solid = box.solid_fraction(bodies);
+    for (std::size_t c = 0; c < data.contact_count(); ++c) {
+        if (!network.bears[c]) continue;
+        ++p.contacts;
+        for (const auto i : {data.contacts.key[c].a, data.contacts.key[c].b})
+            p.ends += static_cast<std::size_t>(i) < box.grains() ? 1.0 : 0.0;
+    }
+    for (std::size_t i = 0; i < box.grains(); ++i) p.bearing += network.is_rattler[i] ? 0.0 : 1.0;
+    p.freedom = Dim * p.bearing + Dim;  // each lid has one of its own
+    return p;
+}
+
+}  // namespace lab
