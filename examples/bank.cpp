@@ -58,16 +58,22 @@ int build(const lab::Command& command, const Options& o) {
     system.add_obstacle(talus::HalfSpace<2>(V(-1.0, 0.0), -top[0] - d));
     const std::size_t first = system.bodies.count();
 
-    // What the layer will be thick at the upper end, if it leans by the paper's 27 degrees.
-    const double thick =
-        std::max((top[0] + o.plate * d) * std::tan(27.0 / 180.0 * std::numbers::pi) - top[1], 0.0);
-    const double height = top[1] + thick + 4.0 * d;
-    talus::Inlet<2> inlet(
-        {.place = talus::on_segment<2>(V(top[0] - 5.0 * d, height), V(top[0] - d, height)),
-         .shape = shape,
-         .rate = o.rate,
-         .total = static_cast<std::int64_t>(o.count),
-         .seed = command.seed() + 1});
+    // Grains come a little above what lies under their source.
+    double level = 0.0;
+    const auto look_up = [&] {
+        level = top[1];
+        for (std::size_t i = first; i < system.bodies.count(); ++i)
+            if (const V& x = system.bodies.position[i]; x[0] > top[0] - 6.0 * d)
+                level = std::max(level, x[1]);
+    };
+    talus::Inlet<2> inlet({.place =
+                               [&](talus::Random& random) {
+                                   return V(top[0] - d * random.uniform(1.0, 5.0), level + 2.5 * d);
+                               },
+                           .shape = shape,
+                           .rate = o.rate,
+                           .total = static_cast<std::int64_t>(o.count),
+                           .seed = command.seed() + 1});
     auto sink = talus::Sink<2>::below(V(0.0, 1.0), -4.0 * d);
     lab::TurningPoints turns(o.amplitude);
 
@@ -75,6 +81,8 @@ int build(const lab::Command& command, const Options& o) {
     run.carry("inlet", inlet);
     run.carry("sink", sink);
     run.carry("turns", turns);
+    lab::Mark fed;
+    run.carry("fed", fed);
     run.begin();
     auto series = run.series("surface.csv", {{"angle", "degrees"}, {"fallen off", "-"}});
     const double from = 0.1 * top[0], to = 0.75 * top[0];
@@ -83,6 +91,7 @@ int build(const lab::Command& command, const Options& o) {
                                 static_cast<std::size_t>((to - from) / d));
     };
     const auto watch = [&] {
+        look_up();
         inlet.feed(system, sim.time());
         sink.drain(system);
         if (sim.step_count() % 20 != 0 || sink.count() == 0) return;
@@ -90,8 +99,6 @@ int build(const lab::Command& command, const Options& o) {
         turns.add(angle);
         series.add(sim.time(), {angle, static_cast<double>(sink.count())});
     };
-    lab::Mark fed;
-    run.carry("fed", fed);
     if (!run.until([&] { return inlet.done(); }, o.count / o.rate, "avalanches", watch))
         return run.exit_code();
     fed.time = std::min(fed.time, sim.time());
@@ -105,13 +112,13 @@ int build(const lab::Command& command, const Options& o) {
     std::printf("%lld grains came, %lld fell off; %zu avalanches of %g degrees or more\n",
                 static_cast<long long>(inlet.count()), static_cast<long long>(sink.count()),
                 turns.valleys().size(), o.amplitude);
-    if (!turns.valleys().empty())
+    if (!turns.valleys().empty() && !turns.peaks().empty())
         std::printf("angle of repose %.1f, limit angle %.1f degrees (the paper: some 25 and 29)\n",
                     mean_of(turns.valleys()).mean(), mean_of(turns.peaks()).mean());
     const lab::SurfaceLine bank = surface();
     lab::PictureParams look;
     look.title = "A bank made by avalanches";
-    look.window = {V(-o.plate * d - 2.0 * d, -3.0 * d), V(top[0], height)};
+    look.window = {V(-o.plate * d - 2.0 * d, -3.0 * d), V(top[0], top[1] + 10.0 * d)};
     look.unit = 9.81 * system.bodies.mass(first);
     look.unit_name = "weights";
     if (bank.whole()) {

@@ -44,12 +44,19 @@ bool compress(const lab::Command& command, const Options& o, double mu, double s
     lab::PressedBox<Dim> box(sim.system(), std::max<std::size_t>(count, 2),
                              talus::UniformRadii(smallest, o.ratio * smallest), false, 1,
                              command.seed());
-    for (int axis = 0; axis < Dim; ++axis) box.add_lid(sim.system(), axis, o.pressure, 1.0);
+    for (int axis = 0; axis < Dim; ++axis) box.add_lid(sim.system(), axis, o.pressure, 0.05);
     char part[40];
     std::snprintf(part, sizeof part, "%dd-mu-%g-size-%g", Dim, mu, size);
     lab::Run<Dim> run(command, sim, "Grains pressed from all sides", part);
+    lab::Real loosened;
+    run.carry("loosened", loosened);
     run.begin();
     bool whole = run.until(o.press, std::string(part) + " pressing");
+    if (whole && loosened.value == 0.0) {
+        // Overlaps left by the way here would close more contacts than a rigid packing has.
+        box.loosen(sim.system(), 1e-4);
+        loosened.value = 1.0;
+    }
     if (whole) {
         // Which contacts bear is told apart at rest, and solved accurately.
         sim.solver() = talus::AcceleratedGaussSeidel<Dim, talus::DefaultLaw<Dim>>(

@@ -11,12 +11,13 @@
 
 namespace lab {
 
-/// What bears in a packing of balls; those that bear nothing are left out.
+/// What bears in a packing of balls: grains that bear nothing are left out, and contacts that bear
+/// less than a thousandth of the mean.
 struct Packing {
     double grains = 0, solid = 0;                ///< [-]
     double contacts = 0, freedom = 0, ends = 0;  ///< that bear; of grains that do; on such grains
     double bearing = 0;                          ///< grains that bear
-    double coordination() const { return ends / bearing; }
+    double coordination() const { return bearing > 0.0 ? ends / bearing : 0.0; }
 };
 
 /// The grains of a box whose axes all have lids, after a step, with their friction coefficient.
@@ -26,8 +27,13 @@ Packing measure_packing(const talus::Simulation<Dim>& sim, const PressedBox<Dim>
     const auto& data = sim.data();
     const std::span<const talus::Vector<Dim>> impulses(data.impulse.begin(), data.impulse.end());
     // Without friction a ball is held by Dim + 1 others, with it by two.
-    const auto network = talus::contact_network<Dim>(
-        bodies, data.contacts, impulses, {.least_contacts = mu > 0.0 ? 2 : Dim + std::size_t{1}});
+    double sum = 0.0, count = 0.0;
+    for (const auto& r : impulses)
+        if (r[0] > 0.0) sum += r[0], ++count;
+    const auto network =
+        talus::contact_network<Dim>(bodies, data.contacts, impulses,
+                                    {.least_impulse = count > 0.0 ? 1e-3 * sum / count : 0.0,
+                                     .least_contacts = mu > 0.0 ? 2 : Dim + std::size_t{1}});
     Packing p;
     p.grains = static_cast<double>(box.grains());
     p.solid = box.solid_fraction(bodies);

@@ -78,6 +78,15 @@ class PressedBox {
              .damping = 20.0,
              .top_speed = top_speed}));
     }
+    /// Moves all that is free apart, by a share of its distance from the origin, and stops it: it
+    /// presses together again, by next to nothing.
+    void loosen(talus::System<Dim>& system, double share) const {
+        for (std::size_t i = 0; i < system.bodies.count(); ++i) {
+            if (system.bodies.is_obstacle(i)) continue;
+            system.bodies.position[i] *= 1.0 + share;
+            system.bodies.velocity[i].setZero();
+        }
+    }
     // Forces refer to it.
     PressedBox(const PressedBox&) = delete;
     PressedBox& operator=(const PressedBox&) = delete;

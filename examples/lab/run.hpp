@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,9 +52,12 @@ class Run {
     Run(const Command& command, talus::Simulation<Dim>& sim, std::string title,
         const std::string& part = "");
 
-    /// What is taken up with the run: random numbers, inlets, ledgers. Before `begin`.
+    /// What is taken up with the run: random numbers, inlets, ledgers. Throws std::logic_error
+    /// after `begin`, which would not know of it.
     template <Carried T>
     void carry(const std::string& name, T& thing) {
+        if (film_)
+            throw std::logic_error("'" + name + "' is carried too late, but must be before begin");
         things_[name] = {[&thing] { return talus::record_of(thing); },
                          [&thing](const talus::NumberRecord& record) {
                              if constexpr (requires { thing.restore(record); })
