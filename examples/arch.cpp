@@ -70,7 +70,8 @@ std::vector<double> joints(const talus::System<Dim>& system, std::size_t first, 
     std::vector<double> open;
     double below = 0.0;
     for (std::size_t k = 0; k <= n; ++k) {
-        const double built = std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+        const double built =
+            std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n);
         const double now =
             k < n ? lab::upright_angle<Dim>(system.bodies.pose(first + k).rotation) - built : 0.0;
         open.push_back(now - below);
@@ -118,15 +119,30 @@ int stand(const lab::Command& command, const Options& o) {
     std::vector<Fall> falls(thickness.size());
     for (std::size_t k = 0; k < falls.size(); ++k) run.carry("fall" + std::to_string(k), falls[k]);
     run.begin();
+    const auto draw = [&](const std::string& name, std::size_t from, std::size_t to) {
+        const double left = static_cast<double>(from) * pitch, low = Dim == 2 ? 0.1 : 1.2;
+        lab::PictureParams look;
+        look.title = "Voussoirs: " + name;
+        look.unit = 9.81 * bodies.mass(1);
+        look.unit_name = "weights of a voussoir";
+        look.window = {{left - 1.2 * o.radius, -low * o.radius},
+                       {static_cast<double>(to) * pitch + 1.2 * o.radius, 1.2 * o.radius}};
+        lab::write_picture<Dim>(command.out() / (name + ".svg"), sim, look);
+    };
     const bool whole = run.until(o.duration, "standing", [&] {
         for (std::size_t k = 0; k < falls.size(); ++k)
-            if (falls[k].joints.empty() && crown(k) < built[k] - 0.02 * o.radius)
+            if (falls[k].joints.empty() && crown(k) < built[k] - 0.02 * o.radius) {
                 falls[k] = {sim.time(), joints<Dim>(sim.system(), 1 + k * n, n)};
+                draw("arch " + std::to_string(k + 1) + " falls", k, k);
+            }
     });
     if (!whole) return run.exit_code();
 
-    std::printf("least thickness of an arch of %zu voussoirs: %.6f R (of many: 0.107478)\n", n, least);
-    std::printf("thickness/R   of the least   one-step test   crown sank [mm]   speed [m/s]   fell at [s]\n");
+    std::printf("least thickness of an arch of %zu voussoirs: %.6f R (of many: 0.107478)\n", n,
+                least);
+    std::printf(
+        "thickness/R   of the least   one-step test   crown sank [mm]   speed [m/s]   fell at "
+        "[s]\n");
     talus::CsvSeries table(command.out() / "arches.csv",
                            {{"thickness", "R"}, {"sunk", "m"}, {"speed", "m/s"}, {"fell", "s"}});
     for (std::size_t k = 0; k < thickness.size(); ++k) {
@@ -138,16 +154,11 @@ int stand(const lab::Command& command, const Options& o) {
                     thickness[k] / least, verdicts[k].c_str(), 1e3 * sunk, speed, falls[k].time);
         table.add(sim.time(), {thickness[k], sunk, speed, falls[k].time});
         if (!falls[k].joints.empty())
-            std::printf("  hinges, in degrees from the right springing: %s\n", hinges(falls[k].joints).c_str());
+            std::printf("  hinges, in degrees from the right springing: %s\n",
+                        hinges(falls[k].joints).c_str());
     }
     std::printf("%s\n", to_string(run.summary()).c_str());
-    lab::PictureParams look;
-    look.title = "Arches " + talus::detail::text_of(o.apart) + " thicker and thinner than the least";
-    look.unit = 9.81 * bodies.mass(1);
-    look.unit_name = "weights of a voussoir";
-    look.window = {{-1.5 * o.radius, Dim == 2 ? -0.1 * o.radius : -o.radius},
-                   {2.5 * pitch, Dim == 2 ? 1.3 * o.radius : o.radius}};
-    if (run.stepped()) lab::write_picture<Dim>(command.out() / "arches.svg", sim, look);
+    if (run.stepped()) draw("arches at the end", 0, 2);
     return run.exit_code();
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 //
 // A railway track in the plane, after section 3.2 and Figure 1 of Moreau's paper: a layer of
-// polygons, 2000 with --full, sleepers on it, and an elastic rail that hands the weight of a passing
-// wheel to the sleepers near it. How is the load shared, and by which grains does it go down?
+// polygons, 2000 with --full, sleepers on it, and an elastic rail that hands the weight of a
+// passing wheel to the sleepers near it. How is the load shared, and by which grains does it go
+// down?
 //
 // Sample runs:  examples/run ballast
 //               examples/run ballast --sleepers 7 --frames 100
@@ -35,7 +36,7 @@ constexpr double g = 9.81;  // [m/s^2]
 
 struct Options {
     double grains = 600, radius = 0.02, sleepers = 5, spacing = 0.6, load = 80e3, bending = 6.4e6,
-           pad = 5e7, mu = 0.7, speed = 4.0, rest = 1.0, step = 5e-4;
+           pad = 5e7, mu = 0.7, pressure = 5e4, speed = 4.0, rest = 0.5, step = 1e-3;
 };
 
 /// Where the wheel is: from the first sleeper, where its load grows, over the last one and back to
@@ -61,13 +62,14 @@ talus::Simulation<2> dry_track(const Options& o) {
     talus::Simulation<2> sim({talus::Coulomb<2>{o.mu}},
                              {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
     sim.system().gravity = {0.0, -g};
-    for (const auto& wall : talus::container<2>(low, {-low[0], 1.0})) sim.system().add_obstacle(wall);
+    for (const auto& wall : talus::container<2>(low, {-low[0], 1.0}))
+        sim.system().add_obstacle(wall);
     return sim;
 }
 
 /// Sleepers of concrete, each a little above the highest grain under it.
 void lay_sleepers(talus::System<2>& system, const Options& o, const std::vector<double>& places) {
-    const talus::Vector<2> half(0.13, 0.1);
+    const talus::Vector<2> half(0.15, 0.1);
     const std::size_t below = system.bodies.count();
     for (const double x : places) {
         double top = 0.0;
@@ -80,16 +82,17 @@ void lay_sleepers(talus::System<2>& system, const Options& o, const std::vector<
     }
 }
 
-/// What the last step says: of each sleeper how much it presses on the ballast beyond its weight [N],
-/// then the force on the ground [N], what gravity and the wheel press less what is being braked
-/// [N], and the Gini coefficient of the grains' loads.
+/// What the last step says: of each sleeper how much it presses on the ballast beyond its weight
+/// [N], then the force on the ground [N], what gravity and the wheel press less what is being
+/// braked [N], and the Gini coefficient of the grains' loads.
 std::vector<double> measure(const talus::Simulation<2>& sim, std::size_t first, double load) {
     const auto& bodies = sim.system().bodies;
     const auto& data = sim.data();
     std::vector<double> found;
     double pressing = load;
     for (std::size_t i = 3; i < bodies.count(); ++i) {
-        pressing += bodies.mass(i) * (g + (data.end[i].linear[1] - data.begin[i].linear[1]) / data.h);
+        pressing +=
+            bodies.mass(i) * (g + (data.end[i].linear[1] - data.begin[i].linear[1]) / data.h);
         if (i >= first)
             found.push_back(
                 talus::wrench_impulse_on(data, static_cast<talus::BodyIndex>(i)).force[1] / data.h -
@@ -127,6 +130,17 @@ void write_passage(const lab::Command& command, const Options& o, const std::vec
                     {"Share of the wheel's load", "wheel at [m]", "share [-]", {middle, theory}});
 }
 
+/// A heavy plate that goes up and down alone, by which the bed is made level.
+void lay_plate(talus::System<2>& system, const Options& o) {
+    const talus::Vector<2> half(0.499 * o.sleepers * o.spacing, 0.05);
+    double top = 0.0;
+    for (std::size_t i = 3; i < system.bodies.count(); ++i)
+        top = std::max(top, system.bodies.position[i][1] + system.bounding_radius()[i]);
+    const auto plate = system.add(talus::Box<2>(half), o.pressure / (g * 2.0 * half[1]),
+                                  {{0.0, top + half[1]}, {}});
+    system.bodies.lock(plate, talus::LockedAxes<2>::all_but_translation(1));
+}
+
 int pass(const lab::Command& command, const Options& o) {
     talus::Simulation<2> sim = dry_track(o);
     auto& system = sim.system();
@@ -136,14 +150,14 @@ int pass(const lab::Command& command, const Options& o) {
         places.push_back((static_cast<double>(k) - 0.5 * (o.sleepers - 1.0)) * o.spacing);
     const double side = 0.5 * o.sleepers * o.spacing - 1.5 * o.radius;
     const double above = 6.0 * o.grains * o.radius * o.radius / (o.sleepers * o.spacing) + 0.2;
-    talus::Inlet<2> inlet({.place = talus::in_box<2>({-side, above}, {side, above + 0.2}),
-                           .shape = lab::angular_grains<2>(
-                               talus::UniformRadii(0.7 * o.radius, 1.3 * o.radius)),
-                           .density = 2700.0,
-                           .rate = 1000.0,
-                           .total = static_cast<std::int64_t>(o.grains),
-                           .velocity = {0.0, -1.0},
-                           .seed = command.seed()});
+    talus::Inlet<2> inlet(
+        {.place = talus::in_box<2>({-side, above}, {side, above + 0.2}),
+         .shape = lab::angular_grains<2>(talus::UniformRadii(0.7 * o.radius, 1.3 * o.radius)),
+         .density = 2700.0,
+         .rate = 1000.0,
+         .total = static_cast<std::int64_t>(o.grains),
+         .velocity = {0.0, -1.0},
+         .seed = command.seed()});
     lab::Rail rail(places, o.bending, o.pad);
     const auto heights = [n](const talus::Bodies<2>& bodies) {
         std::vector<double> z;
@@ -151,20 +165,22 @@ int pass(const lab::Command& command, const Options& o) {
             z.push_back(bodies.position[i][1]);
         return z;
     };
-    lab::Mark poured, laid, fastened;
+    lab::Mark poured, levelled, laid, fastened;
     lab::Numbers measured, passage;
-    system.forces.push_back([&](double t, const talus::Bodies<2>& bodies,
-                                std::span<talus::Wrench<2>> wrenches) {
-        if (!rail.fastened()) return;
-        const Wheel wheel{o, fastened.time};
-        const auto force = rail.forces(wheel.load(t), wheel.place(t), heights(bodies));
-        for (std::size_t k = 0; k < n; ++k) wrenches[bodies.count() - n + k].force[1] += force[k];
-    });
+    system.forces.push_back(
+        [&](double t, const talus::Bodies<2>& bodies, std::span<talus::Wrench<2>> wrenches) {
+            if (!rail.fastened()) return;
+            const Wheel wheel{o, fastened.time};
+            const auto force = rail.forces(wheel.load(t), wheel.place(t), heights(bodies));
+            for (std::size_t k = 0; k < n; ++k)
+                wrenches[bodies.count() - n + k].force[1] += force[k];
+        });
 
     lab::Run<2> run(command, sim, "Railway ballast");
     run.carry("inlet", inlet);
     run.carry("rail", rail);
     run.carry("poured", poured);
+    run.carry("levelled", levelled);
     run.carry("laid", laid);
     run.carry("fastened", fastened);
     run.carry("measured", measured);
@@ -177,8 +193,14 @@ int pass(const lab::Command& command, const Options& o) {
     if (!run.until([&] { return inlet.done(); }, o.grains / 1000.0, "pouring", pour) ||
         !run.until(poured.time + o.rest, "settling"))
         return run.exit_code();
+    if (levelled.time > sim.time()) {
+        levelled.time = sim.time();
+        lay_plate(system, o);
+    }
+    if (!run.until(levelled.time + o.rest, "levelling")) return run.exit_code();
     if (laid.time > sim.time()) {
         laid.time = sim.time();
+        system.remove(system.bodies.id.back());
         lay_sleepers(system, o, places);
     }
     if (!run.until(laid.time + o.rest, "laying sleepers")) return run.exit_code();
@@ -200,9 +222,15 @@ int pass(const lab::Command& command, const Options& o) {
     // The wheel rests on the middle of the rail.
     lab::Rail unmoved(places, o.bending, o.pad);
     const auto rigid = unmoved.forces(o.load, 0.0, places);
-    std::printf("sleeper at [m]   share of the load   beam on unmoved sleepers   Zimmermann\n");
+    const std::vector<double> now = heights(system.bodies);
+    const auto moved = rail.forces(o.load, 0.0, now);
+    std::printf(
+        "share of the load: carried; by the beam on sleepers that have sunk, that have not; "
+        "Zimmermann\n");
+    std::printf("sleeper at [m]   sank [mm]   carried   beam     unmoved   Zimmermann\n");
     for (std::size_t k = 0; k < n; ++k)
-        std::printf("%14.3f   %17.4f   %24.4f   %10.4f\n", places[k], measured[k] / o.load,
+        std::printf("%14.3f   %9.3f   %7.4f   %7.4f   %7.4f   %10.4f\n", places[k],
+                    1e3 * (rail.laid()[k] - now[k]), measured[k] / o.load, -moved[k] / o.load,
                     -rigid[k] / o.load,
                     lab::zimmermann_share(places[k], o.spacing, o.bending, o.pad));
     const double ground = measured[n], pressing = measured[n + 1];
@@ -210,7 +238,8 @@ int pass(const lab::Command& command, const Options& o) {
     for (std::size_t i = 3; i < system.bodies.count(); ++i) weight += g * system.bodies.mass(i);
     std::printf("force on the ground over load and weight: %.6f; less what still moves: %.9f\n",
                 ground / weight, ground / pressing);
-    std::printf("Gini coefficient of the loads of grains: %.3f (G22: above 0.3)\n", measured[n + 2]);
+    std::printf("Gini coefficient of the loads of grains: %.3f (G22: above 0.3)\n",
+                measured[n + 2]);
     std::printf("%s\n", to_string(run.summary()).c_str());
     write_passage(command, o, places, passage.values);
 
@@ -241,6 +270,7 @@ int main(int argc, char** argv) {
         command.number("--bending", o.bending, 1e-3, 1e15, "stiffness EI of the rail [N m^2]");
         command.number("--pad", o.pad, 1, 1e12, "stiffness of a pad under the rail [N/m]");
         command.number("--mu", o.mu, 0, 1e3, "friction coefficient [-]");
+        command.number("--pressure", o.pressure, 1, 1e9, "by which the bed is made level [N/m]");
         command.number("--speed", o.speed, 1e-3, 100, "of the wheel [m/s]");
         command.number("--rest", o.rest, 1e-3, 1e4, "time to settle after each change [s]");
         command.number("--step", o.step, 1e-9, 1, "step size [s]");

@@ -101,9 +101,9 @@ int topple(const lab::Command& command, const Options& o) {
     if (!whole) return run.exit_code();
 
     lab::Curve measured{"measured", {}, {}, true}, theory{"theory, no friction between", {}, {}};
-    talus::CsvSeries table(command.out() / "speed.csv",
-                           {{"spacing over height", "-"}, {"speed over sqrt(gh)", "-"},
-                            {"theory", "-"}});
+    talus::CsvSeries table(
+        command.out() / "speed.csv",
+        {{"spacing over height", "-"}, {"speed over sqrt(gh)", "-"}, {"theory", "-"}});
     std::printf("height [mm]   spacing/height   speed [m/s]   speed/sqrt(gh)   theory\n");
     double reference = 0.0, twice = 0.0;
     for (const Row& row : rows) {
@@ -114,7 +114,8 @@ int topple(const lab::Command& command, const Options& o) {
             time.push_back(times[row.first + k]);
         }
         double speed = std::nan("");
-        if (std::isfinite(times[row.first + last])) speed = 1.0 / talus::fit_line(place, time).slope;
+        if (std::isfinite(times[row.first + last]))
+            speed = 1.0 / talus::fit_line(place, time).slope;
         const double s = row.spacing / row.height, law = lab::domino_wave(s, o.thickness);
         std::printf("%11.4g   %14.4f   %11.4f   %14.4f   %6.4f\n", 1e3 * row.height, s, speed,
                     speed / unit, law);
@@ -130,9 +131,10 @@ int topple(const lab::Command& command, const Options& o) {
         theory.x.push_back(o.narrow + k / 60.0 * (o.wide - o.narrow));
         theory.y.push_back(lab::domino_wave(theory.x.back(), o.thickness));
     }
-    lab::write_plot(command.out() / "speed.svg",
-                    {"Speed of a wave of dominoes", "spacing / height", "speed / sqrt(g h)",
-                     {measured, theory}});
+    lab::write_plot(command.out() / "speed.svg", {"Speed of a wave of dominoes",
+                                                  "spacing / height",
+                                                  "speed / sqrt(g h)",
+                                                  {measured, theory}});
     lab::PictureParams look;
     look.title = "Dominoes";
     look.unit = g * system.bodies.mass(floor);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 //
 // A dry-stone wall, a running bond of boxes, on ground that shakes as a record says, and then in a
-// gust of wind. In space it is shaken across its face, in the plane along its length. How far is each
-// course from where it was built, and does the wall stand? As one block it would not slide, nor tip,
-// below accelerations and pressures in closed form, and slip as Newmark's block beyond them; a wall
-// of one stone (--courses 1 --stones 1) is that block.
+// gust of wind. In space it is shaken across its face, in the plane along its length. How far is
+// each course from where it was built, and does the wall stand? As one block it would not slide,
+// nor tip, below accelerations and pressures in closed form, and slip as Newmark's block beyond
+// them; a wall of one stone (--courses 1 --stones 1) is that block.
 //
 // Sample runs:  examples/run stone_wall
 //               examples/run stone_wall --dim 2 --peak 0.7 --courses 1 --stones 1
@@ -109,8 +109,8 @@ int shake(const lab::Command& command, const Options& o) {
         std::vector<double> way(static_cast<std::size_t>(o.courses) + 1, 0.0);
         std::vector<double> count(way.size(), 0.0);
         for (std::size_t k = 0; k < course_of.size(); ++k) {
-            const V moved = system.bodies.position[k + 1] - built[k + 1] -
-                            system.bodies.position[ground];
+            const V moved =
+                system.bodies.position[k + 1] - built[k + 1] - system.bodies.position[ground];
             way[course_of[k]] += moved[axis];
             count[course_of[k]] += 1.0;
             way.back() = std::max(way.back(), -moved[Dim - 1]);
@@ -140,7 +140,9 @@ int shake(const lab::Command& command, const Options& o) {
         table.add(sim.time(), {static_cast<double>(k + 1), after_quake[k], end[k]});
     }
     // A stone that has come down by half its height has lost its place.
-    const auto verdict = [&](double fall) { return fall > 0.5 * o.height ? "collapsed" : "stands"; };
+    const auto verdict = [&](double fall) {
+        return fall > 0.5 * o.height ? "collapsed" : "stands";
+    };
     std::printf("after the earthquake it %s, after the gust it %s\n",
                 verdict(after_quake.values.back()), verdict(end.back()));
     std::printf("%s\n", to_string(run.summary()).c_str());
@@ -170,8 +172,10 @@ int main(int argc, char** argv) {
         command.number("--height", o.height, 1e-3, 1e3, "of a stone [m]");
         command.number("--depth", o.depth, 1e-3, 1e3, "of a stone, in space [m]");
         command.number("--mu", o.mu, 0, 1e3, "friction coefficient [-]");
-        command.file("--record", o.record, "times [s] and accelerations [m/s^2], for a made-up one");
-        command.number("--peak", o.peak, 0, 100, "largest acceleration; 0: as the record has it [g]");
+        command.file("--record", o.record,
+                     "times [s] and accelerations [m/s^2], for a made-up one");
+        command.number("--peak", o.peak, 0, 100,
+                       "largest acceleration; 0: as the record has it [g]");
         command.number("--quake", o.quake, 0.1, 1e4, "duration of a made-up earthquake [s]");
         command.number("--gust", o.gust, 0, 1e9, "largest pressure of the gust [N/m^(dim-1)]");
         command.number("--blow", o.blow, 1e-3, 1e4, "duration of the gust [s]");

@@ -8,8 +8,8 @@ namespace lab {
 /// Speed, over sqrt(g h), of the steady wave in an endless row of upright plates of height h that
 /// are `thickness` h thick and stand `spacing` h apart: each turns about its lower edge in front,
 /// leans on the next without friction, and hits without bouncing (J. M. J. van Leeuwen, The domino
-/// effect, Am. J. Phys. 78 (2010) 721, for mu = 0). The angle of the foremost plate decides those of
-/// all behind it:
+/// effect, Am. J. Phys. 78 (2010) 721, for mu = 0). The angle of the foremost plate decides those
+/// of all behind it:
 ///
 ///     sin(b - a) = (s + d) cos a - d        a: of a plate, b: of the one behind, s, d: over h.
 ///
@@ -39,7 +39,8 @@ inline double domino_wave(double spacing, double thickness) {
     };
     const double first = together(0.0), last = together(hit), top = potential(0.0);
     // inertia / 2 (w^2 together) + potential is kept, in units of m, g, h; at the hit
-    // w' first = w last, as first = 1 + last and the plate that is hit begins as fast as its pusher.
+    // w' first = w last, as first = 1 + last and the plate that is hit begins as fast as its
+    // pusher.
     const double slowed = last / first;
     const double released = 2.0 / inertia * (top - potential(hit));
     const double square = released / (last - slowed * slowed * first);  // of w just before a hit

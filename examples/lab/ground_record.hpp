@@ -66,8 +66,8 @@ inline GroundRecord read_ground_record(const std::filesystem::path& path) {
 /// A made-up earthquake: waves of 0.5 to 10 Hz, 60 of them, with random phases and amplitudes as
 /// behind a soil that resonates at 2.5 Hz (Kanai 1957, Tajimi 1960, damping 0.6), under an envelope
 /// that rises over a tenth of the duration, is level and fades over the last half. A part of the
-/// envelope, and of the envelope times the time, is taken out, so that the ground ends at rest where
-/// it began. Every 0.01 s.
+/// envelope, and of the envelope times the time, is taken out, so that the ground ends at rest
+/// where it began. Every 0.01 s.
 inline GroundRecord made_up_earthquake(double duration, double peak, std::uint64_t seed) {
     constexpr double pi = std::numbers::pi, every = 0.01;
     constexpr int waves = 60;
@@ -88,7 +88,8 @@ inline GroundRecord made_up_earthquake(double duration, double peak, std::uint64
         const double fade = std::cos(0.5 * pi * std::max(0.0, 2.0 * part - 1.0));
         const double envelope = rise * rise * fade * fade;
         double a = 0.0;
-        for (std::size_t k = 0; k < waves; ++k) a += amplitude[k] * std::sin(omega[k] * t + phase[k]);
+        for (std::size_t k = 0; k < waves; ++k)
+            a += amplitude[k] * std::sin(omega[k] * t + phase[k]);
         for (GroundRecord* r : {&record, &level, &slope}) r->time.push_back(t);
         record.acceleration.push_back(envelope * a);
         level.acceleration.push_back(envelope);

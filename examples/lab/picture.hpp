@@ -19,6 +19,7 @@ struct PictureParams {
     std::pair<Point, Point> window{Point::Zero(), Point::Ones()};  ///< of the plane [m]
     double unit = 1.0;                                             ///< of forces [N]
     std::string unit_name = "N";
+    double strongest_width = 0.0;  ///< of a force, over the mean grain diameter; 0: as usual [-]
 };
 
 /// Mean force over the last step on each body, half the sum of its contacts' magnitudes [N].

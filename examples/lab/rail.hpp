@@ -16,8 +16,9 @@
 namespace lab {
 
 /// A rail: an elastic beam without mass from the first to the last of its supports, fastened to
-/// each by a pad, a spring that pushes and pulls. A wheel on it loads the supports near it. The beam
-/// has Hermite elements between supports, which are exact there for the load of a wheel anywhere.
+/// each by a pad, a spring that pushes and pulls. A wheel on it loads the supports near it. The
+/// beam has Hermite elements between supports, which are exact there for the load of a wheel
+/// anywhere.
 class Rail {
   public:
     /// Supports at ascending places [m], bending stiffness EI [N m^2] and stiffness of a pad [N/m].
@@ -33,9 +34,9 @@ class Rail {
             const double l = talus::require_positive("distance of supports", span(e));
             const double c = bending / (l * l * l);
             Eigen::Matrix4d element;
-            element << 12.0, 6.0 * l, -12.0, 6.0 * l,             //
-                6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l,      //
-                -12.0, -6.0 * l, 12.0, -6.0 * l,                  //
+            element << 12.0, 6.0 * l, -12.0, 6.0 * l,         //
+                6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l,  //
+                -12.0, -6.0 * l, 12.0, -6.0 * l,              //
                 6.0 * l, 2.0 * l * l, -6.0 * l, 4.0 * l * l;
             k.block<4, 4>(2 * e, 2 * e) += c * element;
         }
@@ -49,6 +50,7 @@ class Rail {
         laid_ = std::move(heights);
     }
     bool fastened() const { return !laid_.empty(); }
+    const std::vector<double>& laid() const { return laid_; }  ///< the heights that it was laid at
 
     /// Forces on the supports at these heights [m], upwards, from a wheel of the given load [N] at
     /// x [m], which must be on the rail. Their sum is -load, as is their moment about any point.
@@ -62,9 +64,9 @@ class Rail {
         const auto after = std::upper_bound(places_.begin() + 1, places_.end() - 1, x);
         const Eigen::Index e = after - places_.begin() - 1;
         const double l = span(e), s = (x - places_[static_cast<std::size_t>(e)]) / l;
-        f.segment<4>(2 * e) -= load * Eigen::Vector4d((1 - s) * (1 - s) * (1 + 2 * s),
-                                                      l * s * (1 - s) * (1 - s),
-                                                      s * s * (3 - 2 * s), l * s * s * (s - 1));
+        f.segment<4>(2 * e) -=
+            load * Eigen::Vector4d((1 - s) * (1 - s) * (1 + 2 * s), l * s * (1 - s) * (1 - s),
+                                   s * s * (3 - 2 * s), l * s * s * (s - 1));
         const Eigen::VectorXd bent = stiffness_.solve(f);
         std::vector<double> found(n);
         for (std::size_t i = 0; i < n; ++i)

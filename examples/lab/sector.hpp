@@ -11,8 +11,8 @@
 
 namespace lab {
 
-/// A voussoir: what joints towards the centre cut out of a ring between two radii [m]. Its shape has
-/// straight sides; weight, centroid and inertia are those of the round one. Its frame is in the
+/// A voussoir: what joints towards the centre cut out of a ring between two radii [m]. Its shape
+/// has straight sides; weight, centroid and inertia are those of the round one. Its frame is in the
 /// centroid, axis 0 outwards.
 template <int Dim>
 class Voussoir {
@@ -22,16 +22,16 @@ class Voussoir {
         : inner_(inner), outer_(outer), half_(half), depth_(depth) {
         const double fourth = (std::pow(outer, 4) - std::pow(inner, 4)) / 4.0;
         const double area = half * (outer * outer - inner * inner);
-        centroid_ =
-            2.0 / 3.0 * std::sin(half) * (std::pow(outer, 3) - std::pow(inner, 3)) / area;
+        centroid_ = 2.0 / 3.0 * std::sin(half) * (std::pow(outer, 3) - std::pow(inner, 3)) / area;
         const double mass = density * area * (Dim == 2 ? 1.0 : depth), per_area = mass / area;
-        const double outwards = per_area * fourth * (half + 0.5 * std::sin(2.0 * half)) -
-                                mass * centroid_ * centroid_;
+        const double outwards =
+            per_area * fourth * (half + 0.5 * std::sin(2.0 * half)) - mass * centroid_ * centroid_;
         const double along = per_area * fourth * (half - 0.5 * std::sin(2.0 * half));
         const double deep = mass * depth * depth / 12.0;
         inertia.mass = mass;
         inertia.principal.fill(outwards + along);
-        if constexpr (Dim == 3) inertia.principal << along + deep, outwards + along, outwards + deep;
+        if constexpr (Dim == 3)
+            inertia.principal << along + deep, outwards + along, outwards + deep;
     }
 
     talus::Inertia<Dim> inertia;
