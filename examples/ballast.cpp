@@ -37,7 +37,7 @@ constexpr double g = 9.81;  // [m/s^2]
 
 struct Options {
     double grains = 600, radius = 0.02, sleepers = 5, spacing = 0.6, load = 50e3, bending = 6.4e6,
-           pad = 5e7, mu = 0.8, pressure = 5e4, speed = 6.0, rest = 0.3, step = 1e-3;
+           pad = 5e7, mu = 0.8, pressure = 5e4, speed = 6.0, rest = 0.3, step = 5e-4;
 };
 
 /// Where the wheel is: from the first sleeper, where its load grows, over the last one and back to

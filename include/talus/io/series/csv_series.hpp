@@ -74,7 +74,7 @@ class CsvSeries {
         require_count("values of a row", values.size(), "columns", columns_);
         if (!std::isfinite(time)) detail::reject("time of a row", time, "finite");
         std::string row = exact(time);
-        for (const double x : values) row += "," + exact(x);
+        for (const double x : values) row.append(1, ',').append(exact(x));
         file_.write(row + "\n");
     }
     void add(double time, std::initializer_list<double> values) {
