@@ -150,9 +150,12 @@ int shake(const lab::Command& command, const Options& o) {
     lab::PictureParams look;
     look.title = "A dry-stone wall after an earthquake and a gust";
     look.unit = g * system.bodies.mass(1);
-    look.unit_name = "weights of the first stone";
+    look.unit_name = "stone weights";
+    look.strongest_width = 0.1;
+    // In space: all of it is behind the cut.
     const double shown = 0.5 * o.stones * o.length + tall;
-    look.window = {{-shown, Dim == 2 ? -o.height : -shown}, {shown, Dim == 2 ? 1.3 * tall : shown}};
+    look.window = {{-shown, Dim == 2 ? -o.height : -shown - tall},
+                   {shown, Dim == 2 ? 1.3 * tall : shown - tall}};
     if (run.stepped()) lab::write_picture<Dim>(command.out() / "wall.svg", sim, look);
     return run.exit_code();
 }

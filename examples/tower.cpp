@@ -135,7 +135,9 @@ int stand(const lab::Command& command, const Options& o) {
     look.title = "A tower of planks";
     look.unit = weight;
     look.unit_name = "weights of a plank";
-    look.window = {V(-2.0, -2.0, 0.0).head<2>() * o.length, V(2.0, 2.0, 0.0).head<2>() * o.length};
+    look.strongest_width = 0.1;
+    // All of it is behind the cut.
+    look.window = {{-1.5 * o.length, -3.0 * o.length}, {1.5 * o.length, o.length}};
     if (run.stepped()) lab::write_picture<3>(command.out() / "tower.svg", sim, look);
     return run.exit_code();
 }
