@@ -37,6 +37,7 @@ struct Command::Parts {
     std::string name, out = name + "-out";
     CLI::App app;
     std::vector<Number> numbers;
+    std::vector<std::pair<std::string, std::string*>> files;
     double seed = 1, save_every = 30, frames = 0;
     bool full = false, fresh = false, quiet = false;
 };
@@ -105,6 +106,11 @@ void Command::choice(const std::string& option, double& value,
     parts_->numbers.push_back({option, &value, value, given});
 }
 
+void Command::file(const std::string& option, std::string& path, const std::string& help) {
+    parts_->app.add_option(option, path, help)->type_name("FILE");
+    parts_->files.emplace_back(option, &path);
+}
+
 bool Command::read(int argc, char** argv) {
     try {
         parts_->app.parse(argc, argv);
@@ -127,6 +133,8 @@ bool Command::read(int argc, char** argv) {
 std::string Command::label() const {
     std::string text = name() + " --seed " + exact(parts_->seed);
     for (const Number& n : parts_->numbers) text += " " + n.option + " " + exact(*n.value);
+    for (const auto& [option, path] : parts_->files)
+        if (!path->empty()) text += " " + option + " " + *path;
     return text;
 }
 

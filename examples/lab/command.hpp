@@ -34,6 +34,9 @@ class Command {
     void choice(const std::string& option, double& value, const std::vector<std::string>& words,
                 const std::string& help);
 
+    /// The path of a file to be read; empty: none.
+    void file(const std::string& option, std::string& path, const std::string& help);
+
     /// Reads the command line; false if it asked for help, which was then printed. Throws
     /// input_error, one sentence.
     bool read(int argc, char** argv);

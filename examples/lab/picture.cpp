@@ -131,7 +131,9 @@ std::string picture(const talus::Simulation<2>& sim, const PictureParams& params
                      list);
     }
     drawing.contacts = drawn_contacts(sim);
-    return talus::pile_svg(drawing, {.unit = params.unit, .unit_name = params.unit_name});
+    talus::DrawingParams how{.unit = params.unit, .unit_name = params.unit_name};
+    if (params.strongest_width > 0.0) how.strongest_width = params.strongest_width;
+    return talus::pile_svg(drawing, how);
 }
 
 /// The same of space: cut open, seen from one side; the window is of the two horizontal axes.
@@ -160,7 +162,9 @@ std::string picture(const talus::Simulation<3>& sim, const PictureParams& params
     }
     drawing.captions.push_back("Left: the back half. Right: the forces in all of it.");
     return talus::space_svg(
-        drawing, {.strongest_width = 0.3, .unit = params.unit, .unit_name = params.unit_name});
+        drawing, {.strongest_width = params.strongest_width > 0.0 ? params.strongest_width : 0.3,
+                  .unit = params.unit,
+                  .unit_name = params.unit_name});
 }
 
 }  // namespace

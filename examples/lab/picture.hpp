@@ -21,9 +21,10 @@ struct PictureParams {
     double unit = 1.0;                                             ///< of forces [N]
     std::string unit_name = "N";
     std::vector<talus::DrawnLine> lines = {};  ///< over it; of the plane alone
+    double strongest_width = 0.0;  ///< of a force, over the mean grain diameter; 0: as usual [-]
 };
 
-/// Mean force over the last step on each body, half the sum of its contacts' magnitudes [N].
+/// Mean force over the last step on each body, half the sum of the normal forces on it [N].
 template <int Dim>
 std::vector<double> loads(const talus::Simulation<Dim>& sim);
 
