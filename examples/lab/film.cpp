@@ -17,10 +17,11 @@ struct Film<Dim>::Parts {
 };
 
 template <int Dim>
-Film<Dim>::Film(const Command& command, const std::string& title, double begin) {
+Film<Dim>::Film(const Command& command, const std::filesystem::path& folder,
+                const std::string& title, double begin) {
     if (!(command.frames() > 0.0)) return;
     const talus::MovieWords words{title, "load", "N"};
-    const auto file = command.out() / "movie.jsonl";
+    const auto file = folder / "movie.jsonl";
     parts_ = std::make_unique<Parts>(
         Parts{talus::Schedule::every(1.0 / command.frames(), begin),
               begin > 0.0 && !command.fresh() ? talus::MovieSeries<Dim>::resumed(file, words, begin)

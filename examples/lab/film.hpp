@@ -3,6 +3,7 @@
 
 #include <talus/stepping/simulation.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -10,12 +11,13 @@
 
 namespace lab {
 
-/// The movie of an experiment, `movie.jsonl` in its folder, for examples/player; none without
+/// The movie of an experiment, `movie.jsonl` in a folder, for examples/player; none without
 /// --frames. A run that goes on from `begin` [s] goes on with it.
 template <int Dim>
 class Film {
   public:
-    Film(const Command& command, const std::string& title, double begin);
+    Film(const Command& command, const std::filesystem::path& folder, const std::string& title,
+         double begin);
     ~Film();
     /// After each step, before bodies are taken out.
     void show(const talus::Simulation<Dim>& sim);

@@ -16,10 +16,14 @@
 namespace lab {
 
 template <int Dim>
-Run<Dim>::Run(const Command& command, talus::Simulation<Dim>& sim, std::string title)
-    : command_(command), sim_(sim), title_(std::move(title)) {
+Run<Dim>::Run(const Command& command, talus::Simulation<Dim>& sim, std::string title,
+              const std::string& part)
+    : command_(command),
+      sim_(sim),
+      folder_(part.empty() ? command.out() : command.out() / part),
+      title_(std::move(title)) {
     try {
-        pile::MadeFolder folder(command.out());
+        pile::MadeFolder folder(folder_);
         talus::require_writable(file());
         folder.keep();
     } catch (const std::runtime_error& error) {
@@ -40,7 +44,7 @@ void Run<Dim>::begin() {
         }
         std::fprintf(stderr, "%s: goes on at %.6g s\n", command_.name().c_str(), sim_.time());
     }
-    film_.emplace(command_, title_, sim_.time());
+    film_.emplace(command_, folder_, title_, sim_.time());
 }
 
 template <int Dim>

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "command.hpp"
 #include "film.hpp"
@@ -31,14 +32,23 @@ struct Mark {
     static Mark read(talus::NumberRecordReader& in) { return {in.real()}; }
 };
 
+/// Numbers measured so far, to be carried along.
+struct Series {
+    std::vector<double> values;
+    void write(talus::NumberRecord& out) const { out.reals = values; }
+    void restore(const talus::NumberRecord& record) { values = record.reals; }
+};
+
 /// The run of an experiment: it begins where its checkpoint is, shows how long it will take, films,
 /// writes a checkpoint every so often and at the end, and remembers whether its steps can be
 /// believed.
 template <int Dim>
 class Run {
   public:
-    /// Makes the folder for results. Throws input_error if it cannot be written.
-    Run(const Command& command, talus::Simulation<Dim>& sim, std::string title);
+    /// Makes the folder for results, and in it, for one of several runs of an experiment, that of
+    /// the part of this name. Throws input_error if it cannot be written.
+    Run(const Command& command, talus::Simulation<Dim>& sim, std::string title,
+        const std::string& part = "");
 
     /// What is taken up with the run: random numbers, inlets, ledgers. Before `begin`.
     template <Carried T>
@@ -64,7 +74,9 @@ class Run {
     bool until(const std::function<bool()>& over, double expected, const std::string& label,
                const Each& each = {});
 
-    std::filesystem::path file() const { return command_.out() / "checkpoint.h5"; }
+    /// Where the checkpoint and the movie are.
+    const std::filesystem::path& folder() const { return folder_; }
+    std::filesystem::path file() const { return folder_ / "checkpoint.h5"; }
     /// Whether there is a last step to be looked at: a run that was over had none.
     bool stepped() const { return stepped_; }
     const talus::RunSummary& summary() const { return summary_; }
@@ -75,6 +87,7 @@ class Run {
 
     const Command& command_;
     talus::Simulation<Dim>& sim_;
+    std::filesystem::path folder_;
     std::string title_;
     std::map<std::string, std::pair<std::function<talus::NumberRecord()>,
                                     std::function<void(const talus::NumberRecord&)>>>
