@@ -15,11 +15,13 @@
 #include <cstdio>
 #include <numbers>
 
+#include "lab/aim.hpp"
 #include "lab/command.hpp"
 #include "lab/fill.hpp"
 #include "lab/fits.hpp"
 #include "lab/picture.hpp"
 #include "lab/plot.hpp"
+#include "lab/reach.hpp"
 #include "lab/rough_floor.hpp"
 #include "lab/run.hpp"
 #include "lab/table.hpp"
@@ -30,8 +32,8 @@ namespace {
 constexpr double gravity = 9.81;  // [m/s^2]
 
 struct Options {
-    double dim = 2, count = 600, diameter = 0.01, mu = 0.5, restitution = 0.0, settle = 1,
-           falls = 5, step = 5e-4;
+    double dim = 2, count = 500, diameter = 0.01, mu = 0.5, restitution = 0.0, settle = 1,
+           falls = 5, step = 1e-3, aim = 1e-3;
     std::vector<double> aspects{0.5, 1, 2, 4, 8};
 };
 
@@ -42,48 +44,24 @@ lab::Vessel<Dim> vessel_of(const Options& o, double aspect) {
     return {std::pow(o.count / grains, 1.0 / Dim), o.diameter};
 }
 
-/// How far a heap reaches, in the mean over 2 or 12 directions: as far as grains follow each other
-/// by less than two diameters; what ran ahead is not of it. [m]
-template <int Dim>
-double reach(const talus::System<Dim>& system, double half_width, double diameter) {
-    constexpr std::size_t sectors = Dim == 2 ? 2 : 12;
-    std::array<std::vector<double>, sectors> far;
-    for (std::size_t i = 0; i < system.bodies.count(); ++i) {
-        if (system.bodies.is_obstacle(i)) continue;
-        talus::Vector<Dim> x = system.bodies.position[i];
-        x[Dim - 1] = 0.0;
-        const double angle = std::atan2(x[Dim - 2], x[0]) / (2.0 * std::numbers::pi) + 0.5;
-        const double sector = Dim == 2 ? (x[0] < 0.0 ? 0.0 : 1.0) : angle * sectors;
-        far[std::min(static_cast<std::size_t>(sector), sectors - 1)].push_back(x.norm());
-    }
-    double sum = 0.0;
-    for (auto& distances : far) {
-        double at = 0.9 * half_width;
-        std::sort(distances.begin(), distances.end());
-        for (const double d : distances)
-            if (d > at && d < at + 2.0 * diameter) at = d;
-        sum += at + 0.5 * diameter;
-    }
-    return sum / sectors;
-}
-
-/// What a column becomes.
-struct Collapse {
-    double aspect = 0.0;                 ///< H0 / L0 of the settled column
-    double run_out = 0.0, height = 0.0;  ///< (L - L0) / L0, H / L0
-    double time = 0.0;                   ///< until 0.98 of L is reached, over sqrt(2 H0 / g)
+/// What columns become, a number for each.
+struct Collapses {
+    std::vector<double> aspect;           ///< H0 / L0 of what settled
+    std::vector<double> run_out, height;  ///< (L - L0) / L0, H / L0
+    std::vector<double> time;             ///< until 0.98 of L is reached, over sqrt(2 H0 / g)
 };
 
 /// One collapse, in a folder of its own; its exit code, from `stopped` on if it was.
 template <int Dim>
-int collapse(const lab::Command& command, const Options& o, double aspect, Collapse& result,
+int collapse(const lab::Command& command, const Options& o, double aspect, Collapses& found,
              talus::RunSummary& summary) {
     using V = talus::Vector<Dim>;
     const V up = V::Unit(Dim - 1);
     const auto vessel = vessel_of<Dim>(o, aspect);
     const double half = 0.5 * vessel.width;
     talus::Simulation<Dim> sim({talus::Coulomb<Dim>{o.mu}, o.restitution, 0.0},
-                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
+                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}},
+                               lab::solver_with_aim<Dim>(o.aim));
     auto& system = sim.system();
     system.gravity = -gravity * up;
     vessel.add_wall(system);
@@ -112,38 +90,39 @@ int collapse(const lab::Command& command, const Options& o, double aspect, Colla
     const std::int64_t often = std::max(1LL, std::llround(0.01 / o.step));
     if (!run.until(released.time + o.falls * fall, label, [&] {
             if (sim.step_count() % often == 0)
-                length.values.push_back(reach<Dim>(system, half, o.diameter));
+                length.values.push_back(lab::reach<Dim>(system, half, o.diameter));
         }))
         return run.exit_code();
     summary.add(run.summary());
 
     const double end = length.values.back();
-    result = {column.values[0] / half, end / half - 1.0, top() / half, 0.0};
+    found.aspect.push_back(column.values[0] / half);
+    found.run_out.push_back(end / half - 1.0);
+    found.height.push_back(top() / half);
+    found.time.push_back(0.0);
     talus::CsvSeries table(run.folder() / "length.csv", {{"length", "m"}});
     for (std::size_t k = 0; k < length.values.size(); ++k) {
         const double t = static_cast<double>((k + 1) * often) * o.step;
         table.add(t, {length.values[k]});
-        if (result.time == 0.0 && length.values[k] >= 0.98 * end) result.time = t / fall;
+        if (found.time.back() == 0.0 && length.values[k] >= 0.98 * end)
+            found.time.back() = t / fall;
     }
-    lab::PictureParams look;
-    look.title = "A column of aspect ratio " + talus::detail::text_of(aspect) + " has collapsed";
-    look.unit = gravity * lab::Fill<Dim>(system, 0.0, 1.0).mass / o.count;
-    look.unit_name = "mean weights";
-    const double shown = 1.1 * end, floor = Dim == 2 ? -o.diameter : -shown;
-    look.window = {{-shown, floor}, {shown, Dim == 2 ? 1.2 * top() : shown}};
+    const auto look =
+        lab::in_weights("A column has collapsed", lab::Fill<Dim>(system, 0.0, 1.0).mass / o.count,
+                        {-1.1 * end, Dim == 2 ? -o.diameter : -1.1 * end},
+                        {1.1 * end, Dim == 2 ? 1.2 * top() : 1.1 * end});
     if (run.stepped()) lab::write_picture<Dim>(run.folder() / "heap.svg", sim, look);
     return run.exit_code();
 }
 
 /// The exponents of run-out and height over columns from `low` to `high`, beside what was found.
-void print_exponents(const std::vector<Collapse>& all, double low, double high,
-                     const char* reference) {
+void print_exponents(const Collapses& all, double low, double high, const char* reference) {
     std::vector<double> aspect, run_out, height;
-    for (const Collapse& c : all) {
-        if (c.aspect < low || c.aspect > high || !(c.run_out > 0.0)) continue;
-        aspect.push_back(c.aspect);
-        run_out.push_back(c.run_out);
-        height.push_back(c.height);
+    for (std::size_t k = 0; k < all.aspect.size(); ++k) {
+        if (all.aspect[k] < low || all.aspect[k] > high || !(all.run_out[k] > 0.0)) continue;
+        aspect.push_back(all.aspect[k]);
+        run_out.push_back(all.run_out[k]);
+        height.push_back(all.height[k]);
     }
     if (aspect.size() < 2) return;
     const auto far = lab::fit_power(aspect, run_out), high_fit = lab::fit_power(aspect, height);
@@ -154,14 +133,14 @@ void print_exponents(const std::vector<Collapse>& all, double low, double high,
 
 template <int Dim>
 int collapse_all(const lab::Command& command, const Options& o) {
-    std::vector<Collapse> all;
+    Collapses all;
     talus::RunSummary summary;
     std::printf("    a   run-out / L0   height / L0   time / sqrt(2 H0 / g)\n");
     for (const double aspect : o.aspects) {
-        Collapse& c = all.emplace_back();
-        const int code = collapse<Dim>(command, o, aspect, c, summary);
+        const int code = collapse<Dim>(command, o, aspect, all, summary);
         if (code >= lab::stopped) return code;
-        std::printf("%5.2f   %12.3f   %11.3f   %21.2f\n", c.aspect, c.run_out, c.height, c.time);
+        std::printf("%5.2f   %12.3f   %11.3f   %21.2f\n", all.aspect.back(), all.run_out.back(),
+                    all.height.back(), all.time.back());
     }
     std::printf(
         "references for the run-out: in experiments 1.2 a up to a = 2 and 1.9 a^(2/3) beyond, "
@@ -173,22 +152,16 @@ int collapse_all(const lab::Command& command, const Options& o) {
                     Dim == 2 ? "reference: 0.65 to 0.75" : "reference: 0.5 +- 0.1");
     std::printf("%s\n", to_string(summary).c_str());
 
-    lab::Column aspect{"aspect ratio", {}}, run_out{"run-out / L0", {}}, height{"height / L0", {}},
-        time{"time / sqrt(2 H0 / g)", {}};
-    for (const Collapse& c : all) {
-        aspect.values.push_back(c.aspect);
-        run_out.values.push_back(c.run_out);
-        height.values.push_back(c.height);
-        time.values.push_back(c.time);
-    }
-    lab::write_table(command.out() / "columns.csv", {aspect, run_out, height, time});
-    lab::write_plot(command.out() / "columns.svg",
-                    {"Collapse of columns",
-                     "aspect ratio H0 / L0",
-                     "over L0",
-                     {{"run-out", aspect.values, run_out.values, true},
-                      {"height", aspect.values, height.values, true}},
-                     true});
+    lab::write_table(command.out() / "columns.csv", {{"aspect ratio", all.aspect},
+                                                     {"run-out / L0", all.run_out},
+                                                     {"height / L0", all.height},
+                                                     {"time / sqrt(2 H0 / g)", all.time}});
+    lab::write_plot(command.out() / "columns.svg", {"Collapse of columns",
+                                                    "aspect ratio H0 / L0",
+                                                    "over L0",
+                                                    {{"run-out", all.aspect, all.run_out, true},
+                                                     {"height", all.aspect, all.height, true}},
+                                                    true});
     return summary.certified() ? lab::certified : lab::not_certified;
 }
 
@@ -210,6 +183,7 @@ int main(int argc, char** argv) {
         command.number("--settle", o.settle, 1e-3, 1e3, "before the walls vanish [s]");
         command.number("--falls", o.falls, 1, 1e3, "to spread [sqrt(2 H0 / g)]");
         command.number("--step", o.step, 1e-9, 0.01, "step size [s]");
+        command.number("--aim", o.aim, 1e-8, 1e-3, "of the solver, its tolerance at most [-]");
         if (!command.read(argc, argv)) return 0;
         return o.dim == 2 ? collapse_all<2>(command, o) : collapse_all<3>(command, o);
     });

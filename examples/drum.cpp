@@ -10,20 +10,20 @@
 //               examples/run drum --dim 3
 #include <talus/io/series/csv_series.hpp>
 #include <talus/measure/block_average.hpp>
-#include <talus/measure/rings.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numbers>
 
+#include "lab/aim.hpp"
 #include "lab/command.hpp"
 #include "lab/extremes.hpp"
 #include "lab/grains.hpp"
 #include "lab/move_on.hpp"
 #include "lab/picture.hpp"
 #include "lab/plot.hpp"
+#include "lab/reach.hpp"
 #include "lab/run.hpp"
 #include "lab/scatter.hpp"
 
@@ -33,28 +33,10 @@ constexpr double gravity = 9.81;  // [m/s^2]
 constexpr double degree = std::numbers::pi / 180.0;
 
 struct Options {
-    double dim = 2, shape = 0, radius = 14, thickness = 5, fill = 0.4, diameter = 0.01, mu = 0.5,
-           wall = 1.0, settle = 0.5, fast = 0.1, flow = 4, slow = 0.006, creep = 24,
-           threshold = 1.5, step = 1e-3;
+    double dim = 2, shape = 0, radius = 12, thickness = 5, fill = 0.4, diameter = 0.01, mu = 0.5,
+           wall = 1.0, settle = 0.5, fast = 0.1, flow = 4, slow = 0.006, creep = 20,
+           threshold = 1.5, step = 2e-3, aim = 1e-3;
 };
-
-/// Of a line through the highest grains of bins of the width of two diameters in the middle of the
-/// drum, against the horizontal [degrees].
-template <int Dim>
-double surface_angle(const talus::System<Dim>& system, const Options& o) {
-    const double reach = 0.6 * o.radius * o.diameter, width = 2.0 * o.diameter;
-    const auto bins = static_cast<std::size_t>(2.0 * reach / width);
-    std::vector<double> x(bins), top(bins, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t k = 0; k < bins; ++k) x[k] = (static_cast<double>(k) + 0.5) * width - reach;
-    for (std::size_t i = 0; i < system.bodies.count(); ++i) {
-        const auto& at = system.bodies.position[i];
-        const double k = std::floor((at[0] + reach) / width);
-        if (system.bodies.is_obstacle(i) || !(k >= 0.0 && k < static_cast<double>(bins))) continue;
-        double& height = top[static_cast<std::size_t>(k)];
-        if (!(height >= at[Dim - 1])) height = at[Dim - 1];
-    }
-    return -talus::fit_line(x, top).angle() / degree;
-}
 
 /// Mean with its error.
 void print_mean(const char* words, const std::vector<double>& values, std::size_t blocks) {
@@ -104,7 +86,8 @@ int turn(const lab::Command& command, const Options& o) {
     laws.set(0, 0, {on_grain, 0.0, 0.0});
     laws.set(0, 1, {on_wall, 0.0, 0.0});
     talus::Simulation<Dim> sim(laws,
-                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
+                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}},
+                               lab::solver_with_aim<Dim>(o.aim));
     auto& system = sim.system();
     system.gravity = -gravity * V::Unit(Dim - 1);
     double room = std::numbers::pi * radius * radius;
@@ -138,7 +121,8 @@ int turn(const lab::Command& command, const Options& o) {
     const auto watch = [&](lab::Series& series) {
         return [&] {
             if (sim.step_count() % often == 0)
-                series.values.push_back(surface_angle<Dim>(system, o));
+                series.values.push_back(
+                    lab::surface_angle<Dim>(system, 0.6 * radius, 2.0 * o.diameter) / degree);
         };
     };
     const auto spin_up = [&](double turns) {
@@ -156,12 +140,9 @@ int turn(const lab::Command& command, const Options& o) {
     report(command, o, fast, slow, static_cast<double>(often) * o.step);
     std::printf("%s\n", to_string(run.summary()).c_str());
 
-    lab::PictureParams look;
-    look.title = "A rotating drum";
-    look.unit = gravity * 2600.0 * grain;
-    look.unit_name = "mean weights";
-    const double shown = 1.1 * radius, other = Dim == 2 ? shown : 1.1 * half;
-    look.window = {{-shown, -other}, {shown, other}};
+    const auto look = lab::in_weights("A rotating drum", 2600.0 * grain,
+                                      {-1.1 * radius, -1.1 * (Dim == 2 ? radius : half)},
+                                      {1.1 * radius, 1.1 * (Dim == 2 ? radius : half)});
     if (run.stepped()) lab::write_picture<Dim>(command.out() / "drum.svg", sim, look);
     return run.exit_code();
 }
@@ -190,6 +171,7 @@ int main(int argc, char** argv) {
         command.number("--creep", o.creep, 60, 0.5, 1e6, "time that it turns slowly [s]");
         command.number("--threshold", o.threshold, 1e-3, 90, "least avalanche [degrees]");
         command.number("--step", o.step, 1e-9, 0.1, "step size [s]");
+        command.number("--aim", o.aim, 1e-8, 1e-3, "of the solver, its tolerance at most [-]");
         if (!command.read(argc, argv)) return 0;
         return o.dim == 2 ? turn<2>(command, o) : turn<3>(command, o);
     });

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "lab/aim.hpp"
 #include "lab/command.hpp"
 #include "lab/fill.hpp"
 #include "lab/fits.hpp"
@@ -31,29 +32,13 @@ namespace {
 constexpr double gravity = 9.81;  // [m/s^2]
 
 struct Options {
-    double dim = 2, width = 24, height = 1.5, diameter = 0.01, mu = 0.5, settle = 0.8, lead = 0.5,
-           measure = 2, empty = 2, step = 1e-3;
-    std::vector<double> openings{6, 8, 10, 12};  // [diameters]
-    double begin(std::size_t stage) const {      // [s]
+    double dim = 2, width = 24, height = 1.4, diameter = 0.01, mu = 0.5, settle = 0.8, lead = 0.4,
+           measure = 2, empty = 2, step = 1.5e-3, aim = 1e-3;
+    std::vector<double> openings{6, 7, 8, 10};  // [diameters]
+    double begin(std::size_t stage) const {     // [s]
         return settle + static_cast<double>(stage) * (lead + measure);
     }
 };
-
-/// A floor of planks around an opening: two in the plane, in space 16, whose ends are tangents of
-/// a circle. Their obstacles are the first ones.
-template <int Dim>
-constexpr std::size_t planks = Dim == 2 ? 2 : 16;
-
-template <int Dim>
-talus::Pose<Dim> plank_at(std::size_t k, double opening, const Options& o) {
-    using V = talus::Vector<Dim>;
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / planks<Dim>;
-    talus::AngularVector<Dim> turn = talus::AngularVector<Dim>::Zero();
-    turn[Dim == 2 ? 0 : 2] = angle;
-    const auto rotation = talus::Rotation<Dim>::exp(turn);
-    const V middle = rotation * V((0.5 * opening + 0.6 * o.width * o.diameter) * V::Unit(0));
-    return {middle - o.diameter * V::Unit(Dim - 1), rotation};
-}
 
 /// Flows by opening with their errors, and the law fitted to them.
 template <int Dim>
@@ -101,21 +86,19 @@ int let_flow(const lab::Command& command, const Options& o) {
     using V = talus::Vector<Dim>;
     const V up = V::Unit(Dim - 1);
     talus::Simulation<Dim> sim({talus::Coulomb<Dim>{o.mu}, 0.0, 0.0},
-                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
+                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}},
+                               lab::solver_with_aim<Dim>(o.aim));
     auto& system = sim.system();
     system.gravity = -gravity * up;
     const lab::Vessel<Dim> vessel{o.width * o.diameter, o.diameter};
-    V half = V::Constant(0.6 * vessel.width);
-    half[Dim - 1] = o.diameter;
-    for (std::size_t k = 0; k < planks<Dim>; ++k)
-        system.add_obstacle(talus::Box<Dim>(half), plank_at<Dim>(k, 0.0, o));
+    vessel.add_planks(system);
     vessel.add_wall(system);
     const double full = o.height * vessel.width;  // [m]
     vessel.scatter(system, vessel.grains(full), 0.0, command.seed());
-    talus::Inlet<Dim> inlet({.place = vessel.at_height(1.1 * full),
+    talus::Inlet<Dim> inlet({.place = vessel.between(1.1 * full, 1.1 * full + 0.5 * vessel.width),
                              .shape = talus::balls<Dim>(vessel.radii()),
                              .total = 0,
-                             .velocity = -0.5 * up,
+                             .velocity = -1.0 * up,
                              .seed = command.seed() + 1});
     auto sink = talus::Sink<Dim>::below(up, -8.0 * o.diameter);
     lab::Flow flow;
@@ -128,7 +111,7 @@ int let_flow(const lab::Command& command, const Options& o) {
     run.begin();
 
     const auto fill = [&] { return lab::Fill<Dim>(system, 0.0, vessel.area()); };
-    const std::int64_t often = std::max(1LL, std::llround(0.05 / o.step));
+    const std::int64_t often = std::max(1LL, std::llround(0.02 / o.step));
     bool again = true;  // what flows out comes in
     const auto let = [&] {
         const std::size_t gone = sink.drain(system);
@@ -140,8 +123,7 @@ int let_flow(const lab::Command& command, const Options& o) {
     if (!run.until(o.settle, "settling")) return run.exit_code();
     if (density.values.empty()) density.values = {fill().density};
     for (std::size_t k = 0; k < o.openings.size(); ++k) {
-        for (std::size_t p = 0; p < planks<Dim>; ++p)
-            system.obstacles[p].motion = plank_at<Dim>(p, o.openings[k] * o.diameter, o);
+        vessel.open(system, o.openings[k] * o.diameter);
         const std::string label = "opening " + talus::detail::text_of(o.openings[k]);
         if (!run.until(o.begin(k + 1), label, let)) return run.exit_code();
     }
@@ -159,13 +141,10 @@ int let_flow(const lab::Command& command, const Options& o) {
         below.error(4) / steady);
     std::printf("%s\n", to_string(run.summary()).c_str());
 
-    lab::PictureParams look;
-    look.title = "An hourglass runs empty";
-    look.unit = gravity * fill().mass / std::max(1.0, double(system.bodies.count()));
-    look.unit_name = "mean weights";
-    const double shown = 0.6 * vessel.width;
-    look.window = {{-shown, Dim == 2 ? -8.0 * o.diameter : -shown},
-                   {shown, Dim == 2 ? 1.2 * full : shown}};
+    const auto look =
+        lab::in_weights("An hourglass runs empty", fill().mass / vessel.grains(full),
+                        {-0.6 * vessel.width, Dim == 2 ? -8.0 * o.diameter : -0.6 * vessel.width},
+                        {0.6 * vessel.width, Dim == 2 ? 1.2 * full : 0.6 * vessel.width});
     if (run.stepped()) lab::write_picture<Dim>(command.out() / "hourglass.svg", sim, look);
     return run.exit_code();
 }
@@ -190,6 +169,7 @@ int main(int argc, char** argv) {
         command.number("--measure", o.measure, 0.1, 1e6, "the flow of each opening [s]");
         command.number("--empty", o.empty, 0.1, 1e6, "while nothing comes in [s]");
         command.number("--step", o.step, 1e-9, 0.05, "step size [s]");
+        command.number("--aim", o.aim, 1e-8, 1e-3, "of the solver, its tolerance at most [-]");
         if (!command.read(argc, argv)) return 0;
         return o.dim == 2 ? let_flow<2>(command, o) : let_flow<3>(command, o);
     });

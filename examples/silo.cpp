@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "lab/aim.hpp"
 #include "lab/command.hpp"
 #include "lab/fill.hpp"
 #include "lab/fits.hpp"
@@ -28,8 +29,8 @@ namespace {
 constexpr double gravity = 9.81;  // [m/s^2]
 
 struct Options {
-    double dim = 2, width = 12, height = 5, diameter = 0.01, mu = 0.5, wall = 0.5, rate = 200,
-           sink = 1.5, speed = 0.005, rest = 0.5, step = 1e-3;
+    double dim = 2, width = 10, height = 5, diameter = 0.01, mu = 0.5, wall = 0.5, rate = 400,
+           sink = 1, speed = 0.01, rest = 0.3, step = 1e-3, aim = 1e-3;
 };
 
 /// The law fitted to what is carried at each height; tables and a plot.
@@ -37,15 +38,14 @@ template <int Dim>
 void report(const lab::Command& command, const Options& o, double area, const lab::Fill<Dim>& fill,
             const lab::ForceProfile<Dim>& profile, const lab::Series& pouring) {
     lab::Column height{"height above the floor [m]", {}}, above{"mass above [kg]", {}},
-        carried{"mass carried [kg]", {}}, law{"by the law [kg]", {}};
+        carried{"mass carried [kg]", {}};
     for (std::size_t k = 0; k < profile.count(); ++k) {
         height.values.push_back(profile.height(k, fill) - fill.bottom);
         above.values.push_back(profile.mass(k));
         carried.values.push_back(profile.force(k) / gravity);
     }
     const lab::SaturationFit fit = lab::fit_saturation(above.values, carried.values);
-    for (const double m : above.values) law.values.push_back(fit(m));
-    lab::write_table(command.out() / "profile.csv", {height, above, carried, law});
+    lab::write_table(command.out() / "profile.csv", {height, above, carried});
 
     const double width = o.width * o.diameter;
     const double length = fit.limit / (fill.density * area);
@@ -53,8 +53,8 @@ void report(const lab::Command& command, const Options& o, double area, const la
     for (std::size_t k = 0; k < profile.count(); ++k)
         if (above.values[k] > 3.0 * fit.limit)
             off = std::max(off, std::abs(carried.values[k] / fit.limit - 1.0));
-    std::printf("%.4g kg of grains; the floor carries %.3f of them while it sinks\n", fill.mass,
-                carried.values[0] / fill.mass);
+    std::printf("%.4g kg of grains; %.3f of them are carried below while the floor sinks\n",
+                fill.mass, carried.values[0] / fill.mass);
     std::printf("m_inf %.4g +- %.2g kg, R^2 %.4f (reference: above 0.98)\n", fit.limit, fit.error,
                 fit.r_squared);
     std::printf("Janssen's length %.2f widths, K = %.2f (reference: 0.4 to 1, Janssen 1895)\n",
@@ -63,13 +63,9 @@ void report(const lab::Command& command, const Options& o, double area, const la
                 100.0 * off);
 
     lab::Plot plot{"What is carried in a silo", "mass above [kg]", "mass carried [kg]", {}};
-    plot.curves = {{"Janssen, fitted", {}, {}},
+    plot.curves = {lab::curve_of("Janssen, fitted", fit, 0.0, fill.mass),
                    {"while the floor sinks, by cuts", above.values, carried.values, true},
                    {"by the floor, while grains come", {}, {}, true}};
-    for (int k = 0; k <= 100; ++k) {
-        plot.curves[0].x.push_back(0.01 * k * fill.mass);
-        plot.curves[0].y.push_back(fit(plot.curves[0].x.back()));
-    }
     for (std::size_t k = 0; k < pouring.values.size(); ++k)
         (k % 2 == 0 ? plot.curves[2].x : plot.curves[2].y).push_back(pouring.values[k]);
     lab::write_plot(command.out() / "janssen.svg", plot);
@@ -83,7 +79,8 @@ int fill_and_sink(const lab::Command& command, const Options& o) {
     talus::MaterialTable<talus::DefaultLaw<Dim>> laws(2, {on_wall, 0.0, 0.0});
     laws.set(0, 0, {on_grain, 0.0, 0.0});
     talus::Simulation<Dim> sim(laws,
-                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
+                               {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}},
+                               lab::solver_with_aim<Dim>(o.aim));
     auto& system = sim.system();
     system.gravity = -gravity * up;
     const lab::Vessel<Dim> vessel{o.width * o.diameter, o.diameter};
@@ -91,7 +88,7 @@ int fill_and_sink(const lab::Command& command, const Options& o) {
     const auto floor = system.add_obstacle(talus::HalfSpace<Dim>(up, 0.0), {}, 1);
 
     const double top = o.height * vessel.width, grains = vessel.grains(top);
-    talus::Inlet<Dim> inlet({.place = vessel.at_height(1.2 * top),
+    talus::Inlet<Dim> inlet({.place = vessel.between(1.2 * top, 1.3 * top),
                              .shape = talus::balls<Dim>(vessel.radii()),
                              .rate = o.rate,
                              .total = static_cast<std::int64_t>(grains),
@@ -134,13 +131,10 @@ int fill_and_sink(const lab::Command& command, const Options& o) {
     report<Dim>(command, o, vessel.area(), contents(), profile, pouring);
     std::printf("%s\n", to_string(run.summary()).c_str());
 
-    lab::PictureParams look;
-    look.title = "A silo whose floor sinks";
-    look.unit = contents().mass * gravity / static_cast<double>(inlet.count());
-    look.unit_name = "mean weights";
-    const double half = 0.55 * vessel.width;
-    look.window = {{-half, Dim == 2 ? -0.3 * vessel.width : -half},
-                   {half, Dim == 2 ? 1.1 * top : half}};
+    const auto look = lab::in_weights(
+        "A silo whose floor sinks", contents().mass / grains,
+        {-0.6 * top, Dim == 2 ? -0.3 * vessel.width : -0.55 * vessel.width},
+        {0.55 * vessel.width, Dim == 2 ? 1.1 * top : 0.55 * vessel.width});
     if (run.stepped()) lab::write_picture<Dim>(command.out() / "silo.svg", sim, look);
     return run.exit_code();
 }
@@ -165,6 +159,7 @@ int main(int argc, char** argv) {
         command.number("--speed", o.speed, 1e-9, 1e3, "of the floor [m/s]");
         command.number("--rest", o.rest, 0, 1e6, "before the floor sinks [s]");
         command.number("--step", o.step, 1e-9, 1, "step size [s]");
+        command.number("--aim", o.aim, 1e-8, 1e-3, "of the solver, its tolerance at most [-]");
         if (!command.read(argc, argv)) return 0;
         return o.dim == 2 ? fill_and_sink<2>(command, o) : fill_and_sink<3>(command, o);
     });

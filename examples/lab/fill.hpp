@@ -46,8 +46,10 @@ class ForceProfile {
   public:
     explicit ForceProfile(std::size_t count) : force_(count, 0.0), mass_(count, 0.0) {}
 
+    /// The lowest is within the lowest grains: a cut through the contacts with a floor is
+    /// undecided.
     double height(std::size_t k, const Fill<Dim>& fill) const {
-        const double share = static_cast<double>(k) / static_cast<double>(force_.size());
+        const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(force_.size());
         return fill.bottom + share * (fill.top - fill.bottom);
     }
     /// After a step, before bodies are taken out. O(contacts) for each height.

@@ -21,6 +21,13 @@ struct PictureParams {
     std::string unit_name = "N";
 };
 
+/// Forces in weights of grains of a mass [kg]; a window of the plane, in space of what is seen from
+/// above [m].
+inline PictureParams in_weights(const std::string& title, double mass, const Point& low,
+                                const Point& high) {
+    return {title, {}, {low, high}, 9.81 * mass, "mean weights"};
+}
+
 /// Mean force over the last step on each body, half the sum of its contacts' magnitudes [N].
 template <int Dim>
 std::vector<double> loads(const talus::Simulation<Dim>& sim);

@@ -4,6 +4,8 @@
 #include <talus/feed/place.hpp>
 #include <talus/stepping/simulation.hpp>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 
@@ -37,6 +39,30 @@ struct Vessel {
         else
             system.add_obstacle(talus::RoundHole<3>(0.5 * width, V::Unit(2)), {}, material);
     }
+    /// A floor of planks around an opening: two in the plane, in space 16, whose ends are tangents
+    /// of a circle. The first obstacles of all.
+    static constexpr std::size_t planks = Dim == 2 ? 2 : 16;
+    void add_planks(talus::System<Dim>& system) const {
+        talus::Vector<Dim> half = talus::Vector<Dim>::Constant(0.6 * width);
+        half[Dim - 1] = diameter;
+        for (std::size_t k = 0; k < planks; ++k)
+            system.add_obstacle(talus::Box<Dim>(half), plank_at(k, 0.0));
+    }
+    /// The opening becomes that wide [m], at once.
+    void open(talus::System<Dim>& system, double opening) const {
+        for (std::size_t k = 0; k < planks; ++k) system.obstacles[k].motion = plank_at(k, opening);
+    }
+    talus::Pose<Dim> plank_at(std::size_t k, double opening) const {
+        talus::AngularVector<Dim> turn = talus::AngularVector<Dim>::Zero();
+        turn[Dim == 2 ? 0 : 2] = 2.0 * std::numbers::pi * static_cast<double>(k) / planks;
+        const auto rotation = talus::Rotation<Dim>::exp(turn);
+        talus::Vector<Dim> middle = talus::Vector<Dim>::Zero();
+        middle[0] = 0.5 * opening + 0.6 * width;
+        middle = rotation * middle;
+        middle[Dim - 1] = -diameter;
+        return {middle, rotation};
+    }
+
     /// Loose grains from the height `low` on [m], which then fall.
     void scatter(talus::System<Dim>& system, double count, double low, std::uint64_t seed) const {
         using V = talus::Vector<Dim>;
@@ -50,11 +76,15 @@ struct Vessel {
                               return x.norm() < room;
                           });
     }
-    /// Anywhere at a height [m], for an inlet.
-    talus::Place<Dim> at_height(double height) const {
+    /// Anywhere between two heights [m], for an inlet.
+    talus::Place<Dim> between(double low, double high) const {
         const talus::Vector<Dim> up = talus::Vector<Dim>::Unit(Dim - 1);
-        return talus::in_disc<Dim>(talus::Vector<Dim>(height * up), 0.5 * width - largest_radius(),
-                                   up);
+        const auto across =
+            talus::in_disc<Dim>(talus::Vector<Dim>::Zero(), 0.5 * width - largest_radius(), up);
+        return [=](talus::Random& random) {
+            const talus::Vector<Dim> x = across(random);
+            return talus::Vector<Dim>(x + random.uniform(low, high) * up);
+        };
     }
 };
 
