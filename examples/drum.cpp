@@ -25,7 +25,6 @@
 #include "lab/plot.hpp"
 #include "lab/reach.hpp"
 #include "lab/run.hpp"
-#include "lab/scatter.hpp"
 
 namespace {
 
@@ -100,20 +99,24 @@ int turn(const lab::Command& command, const Options& o) {
             system.add_obstacle(talus::HalfSpace<3>(side * V::Unit(1), -half), {}, 2);
         room *= 2.0 * half;
     }
-    V high = V::Constant(radius);
-    if (Dim == 3) high[1] = half;
     const double grain = std::numbers::pi / (2.0 * Dim) * std::pow(o.diameter, Dim);
     const double solid = Dim == 2 ? 0.82 : 0.6;
-    lab::scatter<Dim>(system,
-                      lab::grains<Dim>(o.shape == 1, talus::UniformRadii(0.4 * o.diameter, widest)),
-                      widest, static_cast<std::size_t>(o.fill * room * solid / grain), -high, high,
-                      command.seed(), [&](V x) {
-                          if (Dim == 3) x[1] = 0.0;
-                          return x.norm() < radius - widest;
-                      });
+    V low = V::Constant(-0.5 * radius), high = V::Constant(0.5 * radius);
+    low[Dim - 1] = 0.0;
+    if (Dim == 3) low[1] = widest - half, high[1] = half - widest;
+    talus::Inlet<Dim> inlet(
+        {.place = talus::in_box<Dim>(low, high),
+         .shape = lab::grains<Dim>(o.shape == 1, talus::UniformRadii(0.4 * o.diameter, widest)),
+         .rate = 1000.0,
+         .total = static_cast<std::int64_t>(o.fill * room * solid / grain),
+         .velocity = -1.0 * V::Unit(Dim - 1),
+         .seed = command.seed()});
 
+    lab::Mark full;
     lab::Series fast, slow;
     lab::Run<Dim> run(command, sim, "A rotating drum");
+    run.carry("inlet", inlet);
+    run.carry("full", full);
     run.carry("fast", fast);
     run.carry("slow", slow);
     run.begin();
@@ -130,10 +133,15 @@ int turn(const lab::Command& command, const Options& o) {
         twist.angular[Dim == 2 ? 0 : 1] = (Dim == 2 ? 1.0 : -1.0) * 2.0 * std::numbers::pi * turns;
         lab::move_on<Dim>(system, drum, twist);
     };
-    const double flows = o.settle + o.flow, end = flows + o.creep;
-    if (!run.until(o.settle, "settling")) return run.exit_code();
+    const bool filled = run.until([&] { return inlet.done(); }, 1.0, "filling",
+                                  [&] {
+                                      inlet.feed(system, sim.time());
+                                      if (inlet.done()) full.time = std::min(full.time, sim.time());
+                                  });
+    const double begin = full.time + o.settle, flows = begin + o.flow, end = flows + o.creep;
+    if (!filled || !run.until(begin, "settling")) return run.exit_code();
     // Either begins at this very step or did so before a stop.
-    if (sim.time() < o.settle + 0.5 * o.step) spin_up(o.fast);
+    if (sim.time() < begin + 0.5 * o.step) spin_up(o.fast);
     if (!run.until(flows, "fast", watch(fast))) return run.exit_code();
     if (sim.time() < flows + 0.5 * o.step) spin_up(o.slow);
     if (!run.until(end, "slow", watch(slow))) return run.exit_code();
@@ -159,7 +167,7 @@ int main(int argc, char** argv) {
         command.count("--dim", o.dim, 2, 3, "dimension");
         command.choice("--shape", o.shape, {"round", "angular"}, "of grains");
         command.number("--radius", o.radius, 25, 4, 1e3, "of the drum [diameters of grains]");
-        command.number("--thickness", o.thickness, 2, 1e3, "in space: its length [diameters]");
+        command.number("--thickness", o.thickness, 1.5, 1e3, "in space: its length [diameters]");
         command.number("--fill", o.fill, 0.05, 0.7, "part of the drum that grains fill [-]");
         command.number("--diameter", o.diameter, 1e-6, 1e3, "mean, of grains [m]");
         command.number("--mu", o.mu, 0, 1e3, "friction coefficient between grains");

@@ -113,7 +113,9 @@ int let_flow(const lab::Command& command, const Options& o) {
     const auto fill = [&] { return lab::Fill<Dim>(system, 0.0, vessel.area()); };
     const std::int64_t often = std::max(1LL, std::llround(0.02 / o.step));
     bool again = true;  // what flows out comes in
+    const double last = o.begin(o.openings.size()), high = 1.2 * vessel.width;
     const auto let = [&] {
+        if (sim.time() > last + o.empty - 0.5 * o.step) return;  // the picture is of this step
         const std::size_t gone = sink.drain(system);
         if (again) inlet.owe(gone);
         inlet.feed(system, sim.time());
@@ -128,7 +130,6 @@ int let_flow(const lab::Command& command, const Options& o) {
         if (!run.until(o.begin(k + 1), label, let)) return run.exit_code();
     }
     again = false;
-    const double last = o.begin(o.openings.size()), high = 1.2 * vessel.width;
     if (!run.until(last + o.empty, "running empty", let)) return run.exit_code();
     report<Dim>(command, o, flow, density.values[0]);
     const double steady = flow.mean(last - o.measure, last).mean();

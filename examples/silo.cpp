@@ -131,10 +131,10 @@ int fill_and_sink(const lab::Command& command, const Options& o) {
     report<Dim>(command, o, vessel.area(), contents(), profile, pouring);
     std::printf("%s\n", to_string(run.summary()).c_str());
 
-    const auto look = lab::in_weights(
-        "A silo whose floor sinks", contents().mass / grains,
-        {-0.6 * top, Dim == 2 ? -0.3 * vessel.width : -0.55 * vessel.width},
-        {0.55 * vessel.width, Dim == 2 ? 1.1 * top : 0.55 * vessel.width});
+    const double side = Dim == 2 ? 0.6 * top : 0.55 * vessel.width;
+    const auto look = lab::in_weights("A silo whose floor sinks", contents().mass / grains,
+                                      {-side, Dim == 2 ? -0.3 * vessel.width : -side},
+                                      {side, Dim == 2 ? 1.1 * top : side});
     if (run.stepped()) lab::write_picture<Dim>(command.out() / "silo.svg", sim, look);
     return run.exit_code();
 }
