@@ -124,8 +124,7 @@ int turn(const lab::Command& command, const Options& o) {
     const auto watch = [&](lab::Series& series) {
         return [&] {
             if (sim.step_count() % often == 0)
-                series.values.push_back(
-                    lab::surface_angle<Dim>(system, 0.6 * radius, 2.0 * o.diameter) / degree);
+                series.values.push_back(lab::lean<Dim>(system) / degree);
         };
     };
     const auto spin_up = [&](double turns) {

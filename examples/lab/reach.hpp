@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/measure/rings.hpp>
 #include <talus/stepping/system.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -40,21 +38,16 @@ double reach(const talus::System<Dim>& system, double least, double diameter) {
     return sum / sectors;
 }
 
-/// How the surface of grains rises along the first axis, as far as `far` from the origin: a line
-/// through the highest centres of bins of a width [m]. [rad]
+/// How far the mass centre of the grains is turned out of the vertical below the origin, towards
+/// the first axis: what the surface leans by in a round drum about the origin. (A line through the
+/// highest grains jumps as they pass from bin to bin, with no grain moving against another.) [rad]
 template <int Dim>
-double surface_angle(const talus::System<Dim>& system, double far, double width) {
-    const auto bins = static_cast<std::size_t>(2.0 * far / width);
-    std::vector<double> x(bins), top(bins, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t k = 0; k < bins; ++k) x[k] = (static_cast<double>(k) + 0.5) * width - far;
-    for (std::size_t i = 0; i < system.bodies.count(); ++i) {
-        const auto& at = system.bodies.position[i];
-        const double k = std::floor((at[0] + far) / width);
-        if (system.bodies.is_obstacle(i) || !(k >= 0.0 && k < static_cast<double>(bins))) continue;
-        double& height = top[static_cast<std::size_t>(k)];
-        if (!(height >= at[Dim - 1])) height = at[Dim - 1];
-    }
-    return -talus::fit_line(x, top).angle();
+double lean(const talus::System<Dim>& system) {
+    talus::Vector<Dim> centre = talus::Vector<Dim>::Zero();
+    for (std::size_t i = 0; i < system.bodies.count(); ++i)
+        if (!system.bodies.is_obstacle(i))
+            centre += system.bodies.mass(i) * system.bodies.position[i];
+    return std::atan2(centre[0], -centre[Dim - 1]);
 }
 
 }  // namespace lab
