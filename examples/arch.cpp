@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "lab/command.hpp"
+#include "lab/masonry/sector.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
-#include "lab/sector.hpp"
 
 namespace {
 
@@ -122,7 +122,7 @@ int stand(const lab::Command& command, const Options& o) {
     const auto draw = [&](const std::string& name, std::size_t from, std::size_t to) {
         const double left = static_cast<double>(from) * pitch, low = Dim == 2 ? 0.1 : 1.2;
         lab::PictureParams look;
-        look.title = "Voussoirs: " + name;
+        look.title = "Arches of loose stones";
         look.unit = 9.81 * bodies.mass(1);
         look.unit_name = "weights of a voussoir";
         look.window = {{left - 1.2 * o.radius, -low * o.radius},
@@ -133,7 +133,7 @@ int stand(const lab::Command& command, const Options& o) {
         for (std::size_t k = 0; k < falls.size(); ++k)
             if (falls[k].joints.empty() && crown(k) < built[k] - 0.02 * o.radius) {
                 falls[k] = {sim.time(), joints<Dim>(sim.system(), 1 + k * n, n)};
-                draw("arch " + std::to_string(k + 1) + " falls", k, k);
+                draw("arch-" + std::to_string(k + 1) + "-falls", k, k);
             }
     });
     if (!whole) return run.exit_code();
@@ -157,9 +157,8 @@ int stand(const lab::Command& command, const Options& o) {
             std::printf("  hinges, in degrees from the right springing: %s\n",
                         hinges(falls[k].joints).c_str());
     }
-    std::printf("%s\n", to_string(run.summary()).c_str());
-    if (run.stepped()) draw("arches at the end", 0, 2);
-    return run.exit_code();
+    draw("arches", 0, 2);
+    return run.finish();
 }
 
 }  // namespace

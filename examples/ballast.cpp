@@ -24,12 +24,11 @@
 #include <vector>
 
 #include "lab/command.hpp"
-#include "lab/grains.hpp"
-#include "lab/numbers.hpp"
+#include "lab/masonry/rail.hpp"
 #include "lab/picture.hpp"
 #include "lab/plot.hpp"
-#include "lab/rail.hpp"
 #include "lab/run.hpp"
+#include "lab/samples/grains.hpp"
 
 namespace {
 
@@ -253,7 +252,6 @@ int pass(const lab::Command& command, const Options& o) {
                 ground / weight, ground / pressing);
     std::printf("Gini coefficient of the loads of grains: %.3f (G22: above 0.3)\n",
                 measured[n + 2]);
-    std::printf("%s\n", to_string(run.summary()).c_str());
     write_passage(command, o, places, passage.values);
 
     lab::PictureParams look;
@@ -263,8 +261,8 @@ int pass(const lab::Command& command, const Options& o) {
     look.unit_name = "wheel loads";
     look.window = {{places[0] - 0.5 * o.spacing, -0.03},
                    {places[n - 1] + 0.5 * o.spacing, system.bodies.position[first][1] + 0.2}};
-    if (run.stepped()) lab::write_picture<2>(command.out() / "ballast.svg", sim, look);
-    return run.exit_code();
+    lab::write_picture<2>(command.out() / "ballast.svg", sim, look);
+    return run.finish();
 }
 
 }  // namespace

@@ -20,20 +20,21 @@
 #include <numbers>
 #include <vector>
 
+#include "lab/aim.hpp"
 #include "lab/command.hpp"
-#include "lab/grains.hpp"
+#include "lab/measures/surface.hpp"
+#include "lab/measures/turning_points.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
-#include "lab/surface.hpp"
-#include "lab/turning_points.hpp"
+#include "lab/samples/grains.hpp"
 
 namespace {
 
 using V = talus::Vector<2>;
 
 struct Options {
-    double count = 900, radius = 0.005, ratio = 1.5, mu = 0.4, incline = 25, length = 32, plate = 8,
-           rate = 120, rest = 1.0, step = 5e-4, amplitude = 1.0;
+    double count = 600, radius = 0.005, ratio = 1.5, mu = 0.4, incline = 25, length = 32, plate = 8,
+           rate = 150, rest = 0.5, step = 2e-4, amplitude = 2.0;
 };
 
 double degrees(double x) { return x * 180.0 / std::numbers::pi; }
@@ -46,7 +47,8 @@ int build(const lab::Command& command, const Options& o) {
     const V up_hill(std::cos(lean), std::sin(lean)), top = o.length * d * up_hill;
 
     talus::Simulation<2> sim({talus::Coulomb<2>{o.mu}},
-                             {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
+                             {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}},
+                             lab::solver_with_aim<2>(1e-3));
     auto& system = sim.system();
     system.gravity = V(0.0, -9.81);
     system.add_obstacle(talus::Box<2>(V(0.5 * o.plate * d, 0.5 * d)),
@@ -58,12 +60,14 @@ int build(const lab::Command& command, const Options& o) {
     system.add_obstacle(talus::HalfSpace<2>(V(-1.0, 0.0), -top[0] - d));
     const std::size_t first = system.bodies.count();
 
-    // Grains come a little above what lies under their source.
+    // Grains come a little above what lies under their source, and so has contacts that bear.
     double level = 0.0;
     const auto look_up = [&] {
         level = top[1];
-        for (std::size_t i = first; i < system.bodies.count(); ++i)
-            if (const V& x = system.bodies.position[i]; x[0] > top[0] - 6.0 * d)
+        const auto& data = sim.data();
+        for (std::size_t c = 0; c < data.contact_count(); ++c)
+            if (const V& x = data.contacts.point[c];
+                data.impulse[c][0] > 0.0 && x[0] > top[0] - 7.0 * d)
                 level = std::max(level, x[1]);
     };
     talus::Inlet<2> inlet({.place =
@@ -88,7 +92,7 @@ int build(const lab::Command& command, const Options& o) {
     const double from = 0.1 * top[0], to = 0.75 * top[0];
     const auto surface = [&] {
         return lab::SurfaceLine(system.bodies, first, from, to,
-                                static_cast<std::size_t>((to - from) / d));
+                                static_cast<std::size_t>(0.5 * (to - from) / d));
     };
     const auto watch = [&] {
         look_up();
@@ -102,7 +106,12 @@ int build(const lab::Command& command, const Options& o) {
     if (!run.until([&] { return inlet.done(); }, o.count / o.rate, "avalanches", watch))
         return run.exit_code();
     fed.time = std::min(fed.time, sim.time());
-    if (!run.until(fed.time + o.rest, "rest")) return run.exit_code();
+    // What has fallen off is taken out until shortly before the last step, which is measured.
+    const double end = fed.time + o.rest;
+    if (!run.until(end, "rest", [&] {
+            if (sim.time() < end - 0.1 * o.rest) sink.drain(system);
+        }))
+        return run.exit_code();
 
     const auto mean_of = [](const std::vector<double>& x) {
         talus::BlockAverage mean;

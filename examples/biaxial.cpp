@@ -16,10 +16,10 @@
 #include <numbers>
 
 #include "lab/command.hpp"
+#include "lab/measures/probe.hpp"
 #include "lab/plot.hpp"
-#include "lab/press.hpp"
-#include "lab/probe.hpp"
 #include "lab/run.hpp"
+#include "lab/samples/press.hpp"
 #include "lab/table.hpp"
 
 namespace {

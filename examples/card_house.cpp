@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "lab/command.hpp"
+#include "lab/masonry/upright.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
-#include "lab/upright.hpp"
 
 namespace {
 
@@ -148,15 +148,14 @@ int stand(const lab::Command& command, const Options& o) {
                     speed);
         rows.add(sim.time(), {mu[house], sunk, speed});
     }
-    std::printf("%s\n", to_string(run.summary()).c_str());
     lab::PictureParams look;
     look.title = "Houses of cards: with more friction than statics asks for, and with less";
     look.unit = Card(o).weight();
     look.unit_name = "weights of a card";
     look.strongest_width = 0.05;
     look.window = {{-0.5 * pitch, -0.05 * o.length}, {1.5 * pitch, (o.storeys + 0.2) * o.length}};
-    if (run.stepped()) lab::write_picture<2>(command.out() / "houses.svg", sim, look);
-    return run.exit_code();
+    lab::write_picture<2>(command.out() / "houses.svg", sim, look);
+    return run.finish();
 }
 
 }  // namespace

@@ -18,23 +18,23 @@
 #include <vector>
 
 #include "lab/command.hpp"
-#include "lab/packing.hpp"
 #include "lab/picture.hpp"
-#include "lab/press.hpp"
 #include "lab/run.hpp"
+#include "lab/samples/packing.hpp"
+#include "lab/samples/press.hpp"
 #include "lab/table.hpp"
 
 namespace {
 
 struct Options {
-    double count = 600, radius = 0.005, ratio = 1.4, mu = 0.5, pressure = 1e4, press = 1.0,
+    double count = 300, radius = 0.005, ratio = 1.4, mu = 0.5, pressure = 1e4, press = 1.0,
            rest = 0.2, step = 5e-4, fine = 1e-7;
 };
 
 /// Presses grains `size` times as large as the finest into a box; false if the user stopped it.
 template <int Dim>
 bool compress(const lab::Command& command, const Options& o, double mu, double size,
-              lab::Packing& p, int& code) {
+              lab::Packing& p, talus::RunSummary& all, int& code) {
     talus::MaterialTable<talus::DefaultLaw<Dim>> laws(2, {talus::Coulomb<Dim>{0.0}});
     laws.set(0, 0, {talus::Coulomb<Dim>{mu}});
     talus::Simulation<Dim> sim(laws,
@@ -76,17 +76,18 @@ bool compress(const lab::Command& command, const Options& o, double mu, double s
         look.window = {-edge, lab::Point(end(0), end(1)) + edge};
         lab::write_picture<Dim>(run.folder() / "packing.svg", sim, look);
     }
+    all.add(run.summary());
     code = std::max(code, whole ? run.finish() : run.exit_code());
     return whole;
 }
 
 template <int Dim>
 bool compare_sizes(const lab::Command& command, const Options& o, double mu,
-                   std::vector<std::vector<double>>& rows, int& code) {
+                   std::vector<std::vector<double>>& rows, talus::RunSummary& all, int& code) {
     std::vector<double> x, solid;
     for (const double size : {2.25, 1.5, 1.0}) {
         lab::Packing p;
-        if (!compress<Dim>(command, o, mu, size, p, code)) return false;
+        if (!compress<Dim>(command, o, mu, size, p, all, code)) return false;
         std::printf(
             "%dD, mu %g, %g grains: solid fraction %.3f, %.2f contacts a grain; bearing "
             "contacts %g, degrees of freedom %g\n",
@@ -96,7 +97,7 @@ bool compare_sizes(const lab::Command& command, const Options& o, double mu,
         x.push_back(size);
         solid.push_back(p.solid);
     }
-    const char* expected[2][2] = {{"0.84", "0.79 to 0.82"}, {"0.64", "0.59 to 0.61"}};
+    const char* expected[2][2] = {{"0.84 [0.79 to 0.82]"}, {"0.64 [0.59 to 0.61]"}};
     std::printf(
         "    walls take room of the size of grains: without, the solid fraction would be "
         "%.3f (far from walls %s)\n",
@@ -125,21 +126,23 @@ int main(int argc, char** argv) {
         command.number("--fine", o.fine, 1e-12, 1e-3, "tolerance at rest");
         if (!command.read(argc, argv)) return 0;
         std::vector<std::vector<double>> rows;
+        talus::RunSummary all;
         int code = 0;
         for (const double mu : {0.0, o.mu})
-            if (!compare_sizes<2>(command, o, mu, rows, code) ||
-                !compare_sizes<3>(command, o, mu, rows, code))
+            if (!compare_sizes<2>(command, o, mu, rows, all, code) ||
+                !compare_sizes<3>(command, o, mu, rows, all, code))
                 return code;
-        lab::write_table(command.out() / "packings.csv",
-                         {{"dimension", "-"},
-                          {"mu", "-"},
-                          {"size", "-"},
-                          {"grains", "-"},
-                          {"solid fraction", "-"},
-                          {"contacts a grain", "-"},
-                          {"bearing contacts", "-"},
-                          {"degrees of freedom", "-"}},
-                         rows);
+        lab::write_rows(command.out() / "packings.csv",
+                        {{"dimension [-]"},
+                         {"mu [-]"},
+                         {"size [-]"},
+                         {"grains [-]"},
+                         {"solid fraction [-]"},
+                         {"contacts a grain [-]"},
+                         {"bearing contacts [-]"},
+                         {"degrees of freedom [-]"}},
+                        rows);
+        std::printf("%s\n", to_string(all).c_str());
         return code;
     });
 }

@@ -20,8 +20,8 @@
 
 #include "lab/command.hpp"
 #include "lab/picture.hpp"
-#include "lab/rough_floor.hpp"
 #include "lab/run.hpp"
+#include "lab/samples/rough_floor.hpp"
 #include "lab/table.hpp"
 
 namespace {
@@ -106,9 +106,9 @@ int pile_up(const lab::Command& command, const Options& o) {
         std::printf("%12.1f   %13.4g   %11.1f\n", 1e3 * middle[k], pressure.pressure(k),
                     1e3 * heights[k]);
     }
-    lab::write_table(command.out() / "rings.csv",
-                     {{"ring at", "m"}, {"pressure", Dim == 2 ? "N/m" : "Pa"}, {"height", "m"}},
-                     rows);
+    lab::write_rows(
+        command.out() / "rings.csv",
+        {{"ring at [m]"}, {Dim == 2 ? "pressure [N/m]" : "pressure [Pa]"}, {"height [m]"}}, rows);
     const talus::LineFit slope = talus::fit_line(middle, flank);
     std::printf("%lld grains; the ground carries %.4f of their weight\n",
                 static_cast<long long>(inlet.count()), pressure.force() / weight);

@@ -18,17 +18,17 @@
 #include <string>
 #include <vector>
 
-#include "lab/bins.hpp"
 #include "lab/command.hpp"
-#include "lab/grains.hpp"
-#include "lab/oblique.hpp"
+#include "lab/measures/oblique.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
+#include "lab/samples/bins.hpp"
+#include "lab/samples/grains.hpp"
 
 namespace {
 
 struct Options {
-    double dim = 2, count = 700, radius = 0.005, mu = 0.4, width = 40, fall = 10, step = 5e-4,
+    double dim = 2, count = 500, radius = 0.005, mu = 0.4, width = 25, fall = 10, step = 5e-4,
            rest = 0.5, near = 3;
 };
 

@@ -20,12 +20,11 @@
 #include <vector>
 
 #include "lab/command.hpp"
-#include "lab/domino_wave.hpp"
-#include "lab/numbers.hpp"
+#include "lab/masonry/domino_wave.hpp"
+#include "lab/masonry/upright.hpp"
 #include "lab/picture.hpp"
 #include "lab/plot.hpp"
 #include "lab/run.hpp"
-#include "lab/upright.hpp"
 
 namespace {
 
@@ -128,7 +127,6 @@ int topple(const lab::Command& command, const Options& o) {
     }
     std::printf("twice the size: speed/sqrt(gh) is %.4f times that of the same row; law: 1\n",
                 twice / reference);
-    std::printf("%s\n", to_string(run.summary()).c_str());
     for (int k = 0; k <= 60; ++k) {
         theory.x.push_back(o.narrow + k / 60.0 * (o.wide - o.narrow));
         theory.y.push_back(lab::domino_wave(theory.x.back(), o.thickness));
@@ -144,8 +142,8 @@ int topple(const lab::Command& command, const Options& o) {
     const double length = rows[1].begin;
     look.window = {{-2.0 * o.height, Dim == 2 ? -0.3 * o.height : -2.0 * o.height},
                    {length, Dim == 2 ? 4.0 * o.height : 2.0 * o.height}};
-    if (run.stepped()) lab::write_picture<Dim>(command.out() / "dominoes.svg", sim, look);
-    return run.exit_code();
+    lab::write_picture<Dim>(command.out() / "dominoes.svg", sim, look);
+    return run.finish();
 }
 
 }  // namespace

@@ -20,11 +20,10 @@
 #include <vector>
 
 #include "lab/command.hpp"
-#include "lab/ground_record.hpp"
-#include "lab/numbers.hpp"
+#include "lab/masonry/ground_record.hpp"
+#include "lab/masonry/upright.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
-#include "lab/upright.hpp"
 
 namespace {
 
@@ -145,7 +144,6 @@ int shake(const lab::Command& command, const Options& o) {
     };
     std::printf("after the earthquake it %s, after the gust it %s\n",
                 verdict(after_quake.values.back()), verdict(end.back()));
-    std::printf("%s\n", to_string(run.summary()).c_str());
 
     lab::PictureParams look;
     look.title = "A dry-stone wall after an earthquake and a gust";
@@ -156,8 +154,8 @@ int shake(const lab::Command& command, const Options& o) {
     const double shown = 0.5 * o.stones * o.length + tall;
     look.window = {{-shown, Dim == 2 ? -o.height : -shown - tall},
                    {shown, Dim == 2 ? 1.3 * tall : shown - tall}};
-    if (run.stepped()) lab::write_picture<Dim>(command.out() / "wall.svg", sim, look);
-    return run.exit_code();
+    lab::write_picture<Dim>(command.out() / "wall.svg", sim, look);
+    return run.finish();
 }
 
 }  // namespace

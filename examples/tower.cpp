@@ -18,8 +18,7 @@
 #include <vector>
 
 #include "lab/command.hpp"
-#include "lab/ground_record.hpp"
-#include "lab/numbers.hpp"
+#include "lab/masonry/ground_record.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
 
@@ -130,7 +129,6 @@ int stand(const lab::Command& command, const Options& o) {
     talus::CsvSeries table(command.out() / "tower.csv",
                            {{"sunk standing", "m"}, {"pull", "N"}, {"sunk", "m"}});
     table.add(sim.time(), {found[0], found[2], end});
-    std::printf("%s\n", to_string(run.summary()).c_str());
     lab::PictureParams look;
     look.title = "A tower of planks";
     look.unit = weight;
@@ -138,8 +136,8 @@ int stand(const lab::Command& command, const Options& o) {
     look.strongest_width = 0.1;
     // All of it is behind the cut.
     look.window = {{-1.5 * o.length, -3.0 * o.length}, {1.5 * o.length, o.length}};
-    if (run.stepped()) lab::write_picture<3>(command.out() / "tower.svg", sim, look);
-    return run.exit_code();
+    lab::write_picture<3>(command.out() / "tower.svg", sim, look);
+    return run.finish();
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "../number_option.hpp"
@@ -24,6 +25,19 @@ struct Number {
     bool whole = false;
 };
 
+struct List {
+    std::string option;
+    std::vector<double>* values;
+    std::vector<double> at_full;
+    CLI::Option* given;
+};
+
+std::string joined(const std::vector<double>& values, std::string (*text)(double)) {
+    std::string list;
+    for (const double x : values) list += (list.empty() ? "" : ",") + text(x);
+    return list;
+}
+
 std::string exact(double x) {
     std::array<char, 32> digits{};
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
@@ -38,6 +52,7 @@ struct Command::Parts {
     CLI::App app;
     std::vector<Number> numbers;
     std::vector<std::pair<std::string, std::string*>> files;
+    std::vector<List> lists;
     double seed = 1, save_every = 30, frames = 0;
     bool full = false, fresh = false, quiet = false;
 };
@@ -84,6 +99,33 @@ void Command::count(const std::string& option, double& value, double at_full, do
     number(option, value, at_full, low, high, help);
     parts_->numbers.back().whole = true;
 }
+void Command::list(const std::string& option, std::vector<double>& values,
+                   const std::vector<double>& at_full, double low, double high,
+                   const std::string& help) {
+    const auto parse = [option, low, high, &values](const std::string& text) {
+        values.clear();
+        for (const char* at = text.c_str();; ++at) {
+            char* end = nullptr;
+            const double x = std::strtod(at, &end);
+            if (end == at || (*end != '\0' && *end != ',') || !(x >= low && x <= high))
+                throw talus::input_error(option + " is '" + text + "', but must be numbers in [" +
+                                         talus::detail::text_of(low) + ", " +
+                                         talus::detail::text_of(high) + "] separated by commas");
+            values.push_back(x);
+            at = end;
+            if (*at == '\0') return;
+        }
+    };
+    const std::string defaults = joined(values, talus::detail::text_of),
+                      full = joined(at_full, talus::detail::text_of);
+    CLI::Option* given = parts_->app
+                             .add_option_function<std::string>(
+                                 option, parse,
+                                 help + " (" + defaults + ")" +
+                                     (full == defaults ? "" : "; " + full + " with --full"))
+                             ->type_name("LIST");
+    parts_->lists.push_back({option, &values, at_full, given});
+}
 void Command::choice(const std::string& option, double& value,
                      const std::vector<std::string>& words, const std::string& help) {
     std::string list;
@@ -121,6 +163,8 @@ bool Command::read(int argc, char** argv) {
         throw talus::input_error(std::string(error.what()) + " (" + name() +
                                  " --help lists the options)");
     }
+    for (const List& l : parts_->lists)
+        if (parts_->full && l.given->count() == 0) *l.values = l.at_full;
     for (const Number& n : parts_->numbers) {
         if (parts_->full && n.given->count() == 0) *n.value = n.at_full;
         if (n.whole && *n.value != std::floor(*n.value))
@@ -135,6 +179,7 @@ std::string Command::label() const {
     for (const Number& n : parts_->numbers) text += " " + n.option + " " + exact(*n.value);
     for (const auto& [option, path] : parts_->files)
         if (!path->empty()) text += " " + option + " " + *path;
+    for (const List& l : parts_->lists) text += " " + l.option + " " + joined(*l.values, exact);
     return text;
 }
 

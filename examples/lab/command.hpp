@@ -30,6 +30,9 @@ class Command {
                const std::string& help);
     void count(const std::string& option, double& value, double at_full, double low, double high,
                const std::string& help);
+    /// Numbers separated by commas, with others for --full.
+    void list(const std::string& option, std::vector<double>& values,
+              const std::vector<double>& at_full, double low, double high, const std::string& help);
     /// One of some words, by their place in the list: value 0 is the first. The default is kept.
     void choice(const std::string& option, double& value, const std::vector<std::string>& words,
                 const std::string& help);

@@ -24,6 +24,13 @@ struct PictureParams {
     double strongest_width = 0.0;  ///< of a force, over the mean grain diameter; 0: as usual [-]
 };
 
+/// Forces in weights of grains of a mass [kg]; a window of the plane, in space of what is seen from
+/// above [m].
+inline PictureParams in_weights(const std::string& title, double mass, const Point& low,
+                                const Point& high) {
+    return {title, {}, {low, high}, 9.81 * mass, "mean weights"};
+}
+
 /// Mean force over the last step on each body, half the sum of the normal forces on it [N].
 template <int Dim>
 std::vector<double> loads(const talus::Simulation<Dim>& sim);

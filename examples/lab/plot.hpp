@@ -17,6 +17,17 @@ struct Curve {
     bool points = false;       ///< marks in place of a line
 };
 
+/// A function between two abscissae.
+template <class F>
+Curve curve_of(const std::string& name, F&& f, double low, double high) {
+    Curve curve{name, {}, {}};
+    for (int k = 0; k <= 100; ++k) {
+        curve.x.push_back(low + 0.01 * k * (high - low));
+        curve.y.push_back(f(curve.x.back()));
+    }
+    return curve;
+}
+
 /// Two axes with ticks, lines and marks.
 struct Plot {
     std::string title, x_name, y_name;  ///< names with units in brackets

@@ -108,7 +108,7 @@ double Run<Dim>::since_save() const {
 template <int Dim>
 int Run<Dim>::finish() {
     save(folder_ / "end.h5");
-    std::printf("%s\n", to_string(summary_).c_str());
+    if (folder_ == command_.out()) std::printf("%s\n", to_string(summary_).c_str());
     return exit_code();
 }
 

@@ -19,6 +19,7 @@
 
 #include "command.hpp"
 #include "film.hpp"
+#include "numbers.hpp"
 
 namespace lab {
 
@@ -88,7 +89,8 @@ class Run {
     /// Where all of this run is written.
     const std::filesystem::path& folder() const { return folder_; }
     /// When all has been measured: writes the state at the end, `end.h5`, for other programs,
-    /// prints whether the run can be believed, and returns the exit code.
+    /// prints whether the run can be believed (of a part the program says it), and returns the exit
+    /// code.
     int finish();
     /// Of a run that was stopped, or is over.
     int exit_code() const;

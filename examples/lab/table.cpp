@@ -5,27 +5,30 @@
 
 #include <array>
 #include <charconv>
+#include <cstddef>
 
 namespace lab {
 
-void write_table(const std::filesystem::path& file,
-                 const std::vector<std::pair<std::string, std::string>>& columns,
-                 const std::vector<std::vector<double>>& rows) {
+void write_table(const std::filesystem::path& file, const std::vector<Column>& columns) {
     std::string text;
-    for (const auto& [name, unit] : columns)
-        text += (text.empty() ? "" : ",") + name + " [" + unit + "]";
+    for (const Column& c : columns) text.append(text.empty() ? "" : ",").append(c.name);
     text += '\n';
-    for (const auto& row : rows) {
-        for (std::size_t k = 0; k < row.size(); ++k) {
+    for (std::size_t row = 0; row < columns.at(0).values.size(); ++row)
+        for (std::size_t k = 0; k < columns.size(); ++k) {
             std::array<char, 32> digits{};
-            const auto end =
-                std::to_chars(digits.data(), digits.data() + digits.size(), row[k]).ptr;
-            if (k > 0) text += ',';
-            text.append(digits.data(), end);
+            const double x = columns[k].values.at(row);
+            text.append(digits.data(),
+                        std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr);
+            text += k + 1 < columns.size() ? ',' : '\n';
         }
-        text += '\n';
-    }
     talus::write_file(file, text);
+}
+
+void write_rows(const std::filesystem::path& file, std::vector<Column> columns,
+                const std::vector<std::vector<double>>& rows) {
+    for (const auto& row : rows)
+        for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row.at(k));
+    write_table(file, columns);
 }
 
 }  // namespace lab

@@ -3,15 +3,21 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace lab {
 
-/// Writes a table at once, comma separated: names and units of its columns, then rows, as exact
-/// decimal numbers. (A table that grows with time is a talus::CsvSeries.)
-void write_table(const std::filesystem::path& file,
-                 const std::vector<std::pair<std::string, std::string>>& columns,
-                 const std::vector<std::vector<double>>& rows);
+/// A column of a table: its name with the unit in brackets, and its numbers.
+struct Column {
+    std::string name;
+    std::vector<double> values = {};
+};
+
+/// Writes columns of equal length as CSV, numbers so that they read back bit for bit. (What grows
+/// with time is a talus::CsvSeries.)
+void write_table(const std::filesystem::path& file, const std::vector<Column>& columns);
+/// The same, row by row; the columns have names alone.
+void write_rows(const std::filesystem::path& file, std::vector<Column> columns,
+                const std::vector<std::vector<double>>& rows);
 
 }  // namespace lab

@@ -15,17 +15,27 @@ import tempfile
 import time
 import unittest
 
-FOLDER = None
-FULL = False
+FOLDER = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else None
+FULL = "full" in sys.argv[2:]
 # Of each experiment its options for runs of a second or so; what cannot be compared between runs is in checkpoint.h5 alone.
 SMALL = {
-    "conical_pile": [["--dim", 2, "--count", 60, "--rate", 400, "--rest", 0.6], ["--count", 40, "--rate", 400, "--rest", 0.6]],
-    "deposit": [["--count", 12, "--width", 5, "--fall", 5, "--rest", 0.1],
-                ["--dim", 3, "--count", 12, "--width", 5, "--fall", 5, "--rest", 0.1]],
+    "arch": [["--voussoirs", 8, "--duration", 0.2], ["--dim", 3, "--voussoirs", 8, "--duration", 0.1]],
+    "ballast": [["--grains", 60, "--sleepers", 3, "--rest", 0.05]],
+    "bank": [["--count", 30, "--length", 10, "--plate", 2, "--rest", 0.05, "--rate", 200, "--step", 5e-4]],
     "biaxial": [["--count", 30, "--settle", 0.1, "--strain", 0.01, "--probe", 2],
                 ["--dim", 3, "--count", 12, "--grains", "round", "--settle", 0.1, "--strain", 0.01, "--probe", 2]],
-    "bank": [["--count", 60, "--length", 10, "--plate", 2, "--rest", 0.05, "--rate", 200]],
+    "card_house": [["--storeys", 1, "--apart", 0.01, "--duration", 0.05]],
+    "column": [["--count", 40, "--aspects", "1,2", "--settle", 0.3]],
     "compression": [["--count", 100, "--press", 0.02, "--rest", 0.01, "--fine", 1e-4]],
+    "conical_pile": [["--count", 40, "--rate", 400, "--rest", 0.6], ["--dim", 2, "--count", 60, "--rate", 400, "--rest", 0.6]],
+    "deposit": [["--count", 12, "--width", 5, "--fall", 5, "--rest", 0.1],
+                ["--dim", 3, "--count", 12, "--width", 5, "--fall", 5, "--rest", 0.1]],
+    "dominoes": [["--rows", 1, "--count", 6, "--narrow", 0.45, "--wide", 0.45]],
+    "drum": [["--radius", 6, "--creep", 0.5, "--flow", 0.5]],
+    "hourglass": [["--width", 9, "--height", 1.2, "--openings", "5,6", "--measure", 0.2, "--lead", 0.1, "--empty", 0.2, "--settle", 0.2]],
+    "silo": [["--width", 5, "--height", 3, "--rest", 0.1, "--sink", 0.2]],
+    "stone_wall": [["--dim", 2, "--courses", 2, "--stones", 2, "--quake", 1, "--blow", 0.1]],
+    "tower": [["--rate", 2, "--stand", 0.1, "--after", 0.1, "--layers", 4, "--layer", 2]],
 }
 
 
@@ -93,21 +103,22 @@ class Experiments(unittest.TestCase):
 
     def test_killed_at_random_moments_it_ends_with_the_same_bytes(self):
         for name, variants in SMALL.items():
-            for k, options in enumerate(variants):
+            for options in variants if FULL else variants[:1]:
                 with self.subTest(name=name, options=options):
                     frames = ["--frames", 20] if name == "conical_pile" else []
-                    self.killed(name, [*options, *frames], 10 if FULL else 3)
+                    self.killed(name, [*options, *frames], 10 if FULL else 1)
                     self.folder.cleanup()
                     self.path.mkdir()
 
     def test_numbers_out_of_range_are_refused_and_nothing_is_written(self):
+        values = ("nan", "much", -1, 1e300) if FULL else ("nan", 1e300)
         for name in SMALL:
             out = self.path / "none"
             asked = subprocess.run([str(FOLDER / name), "--help"], capture_output=True, text=True, timeout=60).stdout
             options = re.findall(r"^ +(--[a-z-]+) NUMBER", asked, re.M)
             self.assertGreaterEqual(len(options), 6, asked)
             for option in options:
-                for value in ("nan", "much", -1, 1e300):
+                for value in values:
                     self.assert_sentence(run(name, "--out", out, option, value), option, "must be")
             for option in re.findall(r"^ +(--[a-z-]+) WORD", asked, re.M):
                 self.assert_sentence(run(name, "--out", out, option, "red"), option, "must be one of")
@@ -139,14 +150,62 @@ class Experiments(unittest.TestCase):
         self.assertGreater(sum("time" in frame for frame in frames), 20)
 
     def test_frictionless_packings_have_as_many_contacts_as_degrees_of_freedom(self):
-        text = self.certified("compression", "--count", 100, "--press", 0.6, "--rest", 0.2)
-        for contacts, freedom in re.findall(r"mu 0, [^\n]* bearing contacts (\d+), degrees of freedom (\d+)", text):
-            self.assertGreater(int(contacts), 0)
-            self.assertLessEqual(int(contacts), int(freedom))
-            self.assertGreaterEqual(int(contacts), 0.9 * int(freedom))
+        result = run("compression", "--count", 100, "--press", 0.8, "--rest", 0.2, "--out", self.path / "packing")
+        found = re.findall(r"mu ([0-9.]+), (\d+) grains[^\n]* bearing contacts (\d+), degrees of freedom (\d+)", result.stdout)
+        self.assertEqual(len(found), 12, result.stdout + result.stderr)
+        for mu, grains, contacts, freedom in found:
+            if int(grains) < 40:
+                continue  # they may crystallise
+            if float(mu) == 0.0:  # two of a hundred: overlaps that were left
+                self.assertAlmostEqual(int(contacts), int(freedom), delta=0.02 * int(freedom), msg=result.stdout)
+            else:
+                self.assertLess(int(contacts), 0.97 * int(freedom), result.stdout)
+
+    def test_an_arch_stands_above_its_least_thickness_and_falls_below(self):
+        text = self.certified("arch", "--voussoirs", 10, "--duration", 0.6, "--dim", 3)
+        self.assertAlmostEqual(number("of an arch of 10 voussoirs: ([0-9.]+)", text), 0.10746, delta=1e-5)
+        above, below = (re.search(rf"{share} +(\w+) +([0-9.]+) ", text) for share in ("1.0200", "0.9800"))
+        self.assertEqual((above[1], below[1]), ("equilibrium", "moving"))
+        self.assertLess(float(above[2]), 0.01)
+        self.assertGreater(float(below[2]), 100)
+
+    def test_a_house_of_cards_needs_the_friction_of_statics(self):
+        text = self.certified("card_house", "--storeys", 1, "--apart", 0.01, "--duration", 0.5)
+        self.assertAlmostEqual(number("one-step test: ([0-9.]+)", text) / number("by statics: ([0-9.]+)", text), 1, delta=1e-3)
+        stands, falls = (number(rf"{share} +([0-9.]+) ", text) for share in ("1.0100", "0.9900"))
+        self.assertLess(stands, 1e-3)
+        self.assertGreater(falls, 10)
+
+    def test_dominoes_fall_at_the_speed_of_theory_at_any_size(self):
+        text = self.certified("dominoes", "--rows", 1, "--count", 20, "--narrow", 0.45, "--wide", 0.45)
+        measured, theory = re.search(r"48 +0.4500 +[0-9.]+ +([0-9.]+) +([0-9.]+)", text).groups()
+        self.assertAlmostEqual(float(measured) / float(theory), 1, delta=0.02)
+        self.assertAlmostEqual(number(r"speed/sqrt\(gh\) is ([0-9.]+) times", text), 1, delta=0.005)
+
+    def test_a_course_of_stones_slips_as_newmarks_block(self):
+        text = self.certified("stone_wall", "--dim", 2, "--courses", 1, "--stones", 1, "--peak", 1.0, "--mu", 0.4, "--quake", 4,
+                              "--gust", 0, "--blow", 0.001)
+        self.assertAlmostEqual(number(r"base course: (-[0-9.]+) mm", text) / number(r"earthquake: (-[0-9.]+) mm", text), 1, delta=0.01)
+
+    def test_flows_of_grains(self):
+        janssen = self.certified("silo", "--width", 5, "--height", 3, "--rest", 0.1, "--sink", 0.3)
+        self.assertTrue(0.4 <= number("K = ([0-9.]+)", janssen) <= 1.0, janssen)
+        column = self.certified("column", "--count", 40, "--aspects", "1,2,4", "--settle", 0.3)
+        reach = [float(x) for x in re.findall(r"(?m)^ *[0-9.]+ +([0-9.]+) +[0-9.]+ +[0-9.]+$", column)]
+        self.assertEqual((len(reach), reach), (3, sorted(reach)), column)
+        drum = self.certified("drum", "--radius", 6, "--creep", 0.5, "--flow", 1)
+        self.assertTrue(10 < number("fast: .* leans by ([0-9.]+)", drum) < 40, drum)
+        hourglass = self.certified("hourglass", "--width", 9, "--height", 1.2, "--openings", "5,7", "--measure", 0.3, "--lead", 0.1,
+                                   "--empty", 0.2, "--settle", 0.3)
+        self.assertLess(number(r"opening +5.00 d: ([0-9.e-]+)", hourglass), number(r"opening +7.00 d: ([0-9.e-]+)", hourglass))
+
+    @unittest.skipUnless(FULL, "takes minutes")
+    def test_long_ones(self):
+        text = self.certified("tower", "--rate", 0.5, "--stand", 0.5, "--after", 0.5)
+        self.assertRegex(text, "stands")
+        text = self.certified("ballast", "--grains", 250, "--sleepers", 3)
+        self.assertGreater(number("Gini[^0-9]*([0-9.]+)", text), 0.3)
 
 
 if __name__ == "__main__":
-    FULL = "full" in sys.argv[2:]
-    FOLDER = pathlib.Path(sys.argv[1])
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "examples/lab/turning_points.hpp"
+#include "examples/lab/measures/turning_points.hpp"
 
 BOOST_AUTO_TEST_SUITE(lab_turning_points)
 

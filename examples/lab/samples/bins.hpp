@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "picture.hpp"
+#include "../picture.hpp"
 
 namespace lab {
 

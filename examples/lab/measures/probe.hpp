@@ -12,11 +12,12 @@
 #include <filesystem>
 #include <numbers>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "picture.hpp"
-#include "plot.hpp"
-#include "table.hpp"
+#include "../picture.hpp"
+#include "../plot.hpp"
+#include "../table.hpp"
 
 namespace lab {
 
@@ -109,14 +110,14 @@ class CutStudy {
 
     /// `cuts.csv`, and `cuts.svg` in units of a pressure.
     void write(const std::filesystem::path& folder, double unit) const {
-        const char* per_area = Dim == 2 ? "N/m" : "Pa";
-        write_table(folder / "cuts.csv",
-                    {{"angle", "degrees"},
-                     {"normal stress", per_area},
-                     {"normal across cut", per_area},
-                     {"tangential stress", per_area},
-                     {"tangential across cut", per_area}},
-                    rows_);
+        const std::string unit_text = Dim == 2 ? " [N/m]" : " [Pa]";
+        write_rows(folder / "cuts.csv",
+                   {{"angle [degrees]"},
+                    {"normal stress" + unit_text},
+                    {"normal across cut" + unit_text},
+                    {"tangential stress" + unit_text},
+                    {"tangential across cut" + unit_text}},
+                   rows_);
         Plot plot{"Stress vector across cuts",
                   "angle of the normal to the first axis [degrees]",
                   "over the pressure of the lids [-]",

@@ -5,7 +5,7 @@
 #include <talus/geometry/convex_polytope.hpp>
 #include <talus/sample/granulometry.hpp>
 
-#include "../random_grain.hpp"
+#include "../../random_grain.hpp"
 
 namespace lab {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "plot.hpp"
-#include "table.hpp"
+#include "../plot.hpp"
+#include "../table.hpp"
 
 namespace lab {
 
@@ -53,16 +53,16 @@ class ObliqueStudy<2> {
     }
     void write(const std::filesystem::path& out) const {
         std::vector<Rose> roses;
-        std::vector<std::pair<std::string, std::string>> columns{{"angle", "rad"}};
+        std::vector<Column> columns{{"angle [rad]"}};
         std::vector<std::vector<double>> rows(24);
         for (std::size_t k = 0; k < 24; ++k) rows[k] = {histograms_.at(0).middle(k)};
         for (std::size_t i = 0; i < names_.size(); ++i) {
             if (!(histograms_[i].total() > 0.0)) continue;
             roses.push_back({names_[i], histograms_[i], talus::fit_fabric(histograms_[i])});
-            columns.emplace_back("density of sample " + std::to_string(i), "1/rad");
+            columns.push_back({"density of sample " + std::to_string(i) + " [1/rad]"});
             for (std::size_t k = 0; k < 24; ++k) rows[k].push_back(histograms_[i].density(k));
         }
-        write_table(out / "directions.csv", columns, rows);
+        write_rows(out / "directions.csv", columns, rows);
         write_roses(out / "directions.svg", roses);
     }
 
@@ -100,7 +100,7 @@ class ObliqueStudy<3> {
                   "angle [degrees]",
                   "over that of even directions [-]",
                   {}};
-        std::vector<std::pair<std::string, std::string>> columns{{"angle", "rad"}};
+        std::vector<Column> columns{{"angle [rad]"}};
         std::vector<std::vector<double>> rows(histograms_.at(0).bands());
         for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = {histograms_[0].middle(k)};
         for (std::size_t i = 0; i < names_.size(); ++i) {
@@ -111,10 +111,10 @@ class ObliqueStudy<3> {
                 curve.x.push_back(histograms_[i].middle(k) * 180.0 / std::numbers::pi);
                 curve.y.push_back(2.0 * std::numbers::pi * density);
             }
-            columns.emplace_back("density of sample " + std::to_string(i), "1/sr");
+            columns.push_back({"density of sample " + std::to_string(i) + " [1/sr]"});
             plot.curves.push_back(curve);
         }
-        write_table(out / "directions.csv", columns, rows);
+        write_rows(out / "directions.csv", columns, rows);
         write_plot(out / "directions.svg", plot);
     }
 
