@@ -62,7 +62,7 @@ int turn(const lab::Command& command, const Options& o) {
     auto& system = sim.system();
     system.gravity = -gravity * V::Unit(Dim - 1);
     const lab::RoundDrum<Dim> drum{radius, half};
-    const talus::BodyIndex wall = drum.add_to(system, 1, 2);
+    const talus::BodyIndex wall = drum.add_to(system, 1, 2);  // its ends are smooth
     const double grain = std::numbers::pi / (2.0 * Dim) * std::pow(o.diameter, Dim);
     const double solid = Dim == 2 ? 0.82 : 0.6;
     V low = V::Constant(-0.5 * radius), high = V::Constant(0.5 * radius);
