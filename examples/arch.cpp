@@ -12,7 +12,6 @@
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -20,7 +19,9 @@
 #include <vector>
 
 #include "lab/command.hpp"
+#include "lab/masonry/hinges.hpp"
 #include "lab/masonry/sector.hpp"
+#include "lab/masonry/upright.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
 
@@ -29,23 +30,6 @@ namespace {
 struct Options {
     double dim = 2, voussoirs = 20, radius = 1.0, apart = 0.02, mu = 1.0, depth = 0.3,
            duration = 3.0, step = 1e-3;
-};
-
-/// When an arch had sunk by a fiftieth of its radius, and by how much its joints were open then
-/// [rad], from the springing on the right.
-struct Fall {
-    double time = lab::Mark{}.time;
-    std::vector<double> joints;
-    void write(talus::NumberRecord& out) const {
-        out.real(time);
-        out.integer(joints.size());
-        for (const double angle : joints) out.real(angle);
-    }
-    static Fall read(talus::NumberRecordReader& in) {
-        Fall fall{in.real(), std::vector<double>(in.count(1, 0))};
-        for (double& angle : fall.joints) angle = in.real();
-        return fall;
-    }
 };
 
 template <int Dim>
@@ -62,36 +46,6 @@ talus::System<Dim> ground(const Options& o) {
     system.gravity = -9.81 * talus::Vector<Dim>::Unit(Dim - 1);
     system.add_obstacle(talus::HalfSpace<Dim>(talus::Vector<Dim>::Unit(Dim - 1), 0.0));
     return system;
-}
-
-/// Of all joints, by how much they are open: how the stones above and below have turned apart.
-template <int Dim>
-std::vector<double> joints(const talus::System<Dim>& system, std::size_t first, std::size_t n) {
-    std::vector<double> open;
-    double below = 0.0;
-    for (std::size_t k = 0; k <= n; ++k) {
-        const double built =
-            std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n);
-        const double now =
-            k < n ? lab::upright_angle<Dim>(system.bodies.pose(first + k).rotation) - built : 0.0;
-        open.push_back(now - below);
-        below = now;
-    }
-    return open;
-}
-
-/// Where the hinges are: joints open by a fifth of the widest, in degrees from the right, with the
-/// side at which they are shut.
-std::string hinges(const std::vector<double>& open) {
-    double widest = 0.0;
-    for (const double angle : open) widest = std::max(widest, std::abs(angle));
-    std::string text;
-    for (std::size_t k = 0; k < open.size(); ++k) {
-        if (std::abs(open[k]) < 0.2 * widest) continue;
-        const double at = 180.0 * static_cast<double>(k) / static_cast<double>(open.size() - 1);
-        text += talus::detail::text_of(at) + (open[k] > 0.0 ? " in, " : " out, ");
-    }
-    return text.substr(0, text.size() - 2);
 }
 
 template <int Dim>
@@ -116,7 +70,7 @@ int stand(const lab::Command& command, const Options& o) {
     for (std::size_t k = 0; k < thickness.size(); ++k) built.push_back(crown(k));
 
     lab::Run<Dim> run(command, sim, "Arches");
-    std::vector<Fall> falls(thickness.size());
+    std::vector<lab::Fall> falls(thickness.size());  // by a fiftieth of the radius
     for (std::size_t k = 0; k < falls.size(); ++k) run.carry("fall" + std::to_string(k), falls[k]);
     run.begin();
     const auto draw = [&](const std::string& name, std::size_t from, std::size_t to) {
@@ -132,7 +86,7 @@ int stand(const lab::Command& command, const Options& o) {
     const bool whole = run.until(o.duration, "standing", [&] {
         for (std::size_t k = 0; k < falls.size(); ++k)
             if (falls[k].joints.empty() && crown(k) < built[k] - 0.02 * o.radius) {
-                falls[k] = {sim.time(), joints<Dim>(sim.system(), 1 + k * n, n)};
+                falls[k] = {sim.time(), lab::open_joints<Dim>(bodies, 1 + k * n, n)};
                 draw("arch-" + std::to_string(k + 1) + "-falls", k, k);
             }
     });
@@ -146,16 +100,14 @@ int stand(const lab::Command& command, const Options& o) {
     talus::CsvSeries table(command.out() / "arches.csv",
                            {{"thickness", "R"}, {"sunk", "m"}, {"speed", "m/s"}, {"fell", "s"}});
     for (std::size_t k = 0; k < thickness.size(); ++k) {
-        double speed = 0.0;
-        for (std::size_t i = 1 + k * n; i < 1 + (k + 1) * n; ++i)
-            speed = std::max(speed, bodies.velocity[i].norm());
+        const double speed = lab::top_speed(bodies, 1 + k * n, n);
         const double sunk = built[k] - crown(k);
         std::printf("%11.6f   %12.4f   %13s   %15.4f   %11.2e   %11.3f\n", thickness[k],
                     thickness[k] / least, verdicts[k].c_str(), 1e3 * sunk, speed, falls[k].time);
         table.add(sim.time(), {thickness[k], sunk, speed, falls[k].time});
         if (!falls[k].joints.empty())
             std::printf("  hinges, in degrees from the right springing: %s\n",
-                        hinges(falls[k].joints).c_str());
+                        lab::hinges(falls[k].joints).c_str());
     }
     draw("arches", 0, 2);
     return run.finish();

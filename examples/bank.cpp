@@ -12,21 +12,21 @@
 //               examples/run bank --full
 #include <talus/feed/inlet.hpp>
 #include <talus/feed/sink.hpp>
-#include <talus/measure/block_average.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <vector>
 
 #include "lab/aim.hpp"
 #include "lab/command.hpp"
+#include "lab/measures/averages.hpp"
 #include "lab/measures/surface.hpp"
 #include "lab/measures/turning_points.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
 #include "lab/samples/grains.hpp"
+#include "lab/samples/incline.hpp"
 
 namespace {
 
@@ -44,36 +44,17 @@ int build(const lab::Command& command, const Options& o) {
     const double smallest = d / (1.0 + o.ratio);
     const talus::UniformRadii radii(smallest, o.ratio * smallest);
     const auto shape = lab::angular_grains<2>(radii);
-    const V up_hill(std::cos(lean), std::sin(lean)), top = o.length * d * up_hill;
+    const lab::Incline incline(o.length * d, lean, d, o.plate * d);
 
     talus::Simulation<2> sim({talus::Coulomb<2>{o.mu}},
                              {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}},
                              lab::solver_with_aim<2>(1e-3));
     auto& system = sim.system();
     system.gravity = V(0.0, -9.81);
-    system.add_obstacle(talus::Box<2>(V(0.5 * o.plate * d, 0.5 * d)),
-                        {{V(-0.5 * o.plate * d, -0.5 * d), {}}});
-    talus::Random random(command.seed());
-    for (double along = 0.0; along < o.length * d; along += 1.6 * o.radius)
-        system.add_obstacle(shape(random),
-                            {{V(along * up_hill), talus::random_rotation<2>(random)}});
-    system.add_obstacle(talus::HalfSpace<2>(V(-1.0, 0.0), -top[0] - d));
+    incline.add_to(system, shape, command.seed());
     const std::size_t first = system.bodies.count();
 
-    // Grains come a little above what lies under their source, and so has contacts that bear.
-    double level = 0.0;
-    const auto look_up = [&] {
-        level = top[1];
-        const auto& data = sim.data();
-        for (std::size_t c = 0; c < data.contact_count(); ++c)
-            if (const V& x = data.contacts.point[c];
-                data.impulse[c][0] > 0.0 && x[0] > top[0] - 7.0 * d)
-                level = std::max(level, x[1]);
-    };
-    talus::Inlet<2> inlet({.place =
-                               [&](talus::Random& random) {
-                                   return V(top[0] - d * random.uniform(1.0, 5.0), level + 2.5 * d);
-                               },
+    talus::Inlet<2> inlet({.place = incline.source(sim),
                            .shape = shape,
                            .rate = o.rate,
                            .total = static_cast<std::int64_t>(o.count),
@@ -89,13 +70,12 @@ int build(const lab::Command& command, const Options& o) {
     run.carry("fed", fed);
     run.begin();
     auto series = run.series("surface.csv", {{"angle", "degrees"}, {"fallen off", "-"}});
-    const double from = 0.1 * top[0], to = 0.75 * top[0];
+    const double from = 0.1 * incline.top()[0], to = 0.75 * incline.top()[0];
     const auto surface = [&] {
         return lab::SurfaceLine(system.bodies, first, from, to,
                                 static_cast<std::size_t>(0.5 * (to - from) / d));
     };
     const auto watch = [&] {
-        look_up();
         inlet.feed(system, sim.time());
         sink.drain(system);
         if (sim.step_count() % 20 != 0 || sink.count() == 0) return;
@@ -113,21 +93,16 @@ int build(const lab::Command& command, const Options& o) {
         }))
         return run.exit_code();
 
-    const auto mean_of = [](const std::vector<double>& x) {
-        talus::BlockAverage mean;
-        for (const double value : x) mean.add(value);
-        return mean;
-    };
     std::printf("%lld grains came, %lld fell off; %zu avalanches of %g degrees or more\n",
                 static_cast<long long>(inlet.count()), static_cast<long long>(sink.count()),
                 turns.valleys().size(), o.amplitude);
     if (!turns.valleys().empty() && !turns.peaks().empty())
         std::printf("angle of repose %.1f, limit angle %.1f degrees (the paper: some 25 and 29)\n",
-                    mean_of(turns.valleys()).mean(), mean_of(turns.peaks()).mean());
+                    lab::average_of(turns.valleys()).mean(), lab::average_of(turns.peaks()).mean());
     const lab::SurfaceLine bank = surface();
     lab::PictureParams look;
     look.title = "A bank made by avalanches";
-    look.window = {V(-o.plate * d - 2.0 * d, -3.0 * d), V(top[0], top[1] + 10.0 * d)};
+    look.window = incline.window();
     look.unit = 9.81 * system.bodies.mass(first);
     look.unit_name = "weights";
     if (bank.whole()) {
@@ -140,12 +115,7 @@ int build(const lab::Command& command, const Options& o) {
                     degrees(std::atan2(along[0], -along[1])));
         std::printf("force across upright cuts: %.1f degrees from the surface (0)\n",
                     degrees(std::atan2(-upright[1], -upright[0]) - bank.angle()));
-        look.lines.push_back({{V(from, bank.height(from)), V(to, bank.height(to))}});
-        look.lines.push_back(
-            {{V(middle, bank.height(middle)), V(middle, bank.height(middle) - 2.0 * depth)}});
-        const double quarter = 0.25 * (to - from);
-        look.lines.push_back({{V(middle - quarter, bank.height(middle - quarter) - depth),
-                               V(middle + quarter, bank.height(middle + quarter) - depth)}});
+        look.lines = lab::drawn_cuts(bank, from, to, depth);
     }
     lab::write_picture<2>(command.out() / "bank.svg", sim, look);
     return run.finish();

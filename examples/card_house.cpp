@@ -8,90 +8,30 @@
 // Sample runs:  examples/run card_house
 //               examples/run card_house --storeys 1 --apart 0.01
 //               examples/run card_house --storeys 3 --frames 50
-#include <talus/geometry/capsule.hpp>
+#include "lab/masonry/card_house.hpp"
+
 #include <talus/io/series/csv_series.hpp>
 #include <talus/stepping/equilibrium.hpp>
 #include <talus/stepping/simulation.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <vector>
 
 #include "lab/command.hpp"
-#include "lab/masonry/upright.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
 
 namespace {
 
-constexpr double g = 9.81, density = 800.0;  // [m/s^2], [kg/m^2]
-
 struct Options {
     double storeys = 2, length = 0.088, thickness = 3e-4, lean = 25, gap = 0.5, apart = 0.05,
            duration = 2.0, step = 5e-5;
-};
-
-/// Lengths and weights. Cards have round ends of radius r, in the middle of which the length l
-/// between them begins and ends; neighbours are apart, so that their feet can slip.
-struct Card {
-    explicit Card(const Options& o)
-        : r(0.5 * o.thickness),
-          l(o.length - o.thickness),
-          lean(o.lean * std::numbers::pi / 180),
-          gap(o.gap * o.length) {}
-    double r, l, lean, gap;
-    double across() const { return 2.0 * (l * std::sin(lean) + r); }  // between the feet of a pair
-    double pitch() const { return across() + gap; }
-    double storey() const { return l * std::cos(lean) + 4.0 * r; }  // with the flat card on it
-    double weight() const { return g * density * (2.0 * r * l + std::numbers::pi * r * r); }
-    double flat_half(int pairs) const { return 0.5 * (pairs - 1) * pitch() + 20.0 * r; }
-    double flat_weight(int pairs) const { return g * density * 4.0 * r * flat_half(pairs); }
-};
-
-/// Friction that the lowest storey needs if loads go down evenly, from each foot to the pair below
-/// it. A pair that carries P stands like two ladders: moments about a foot give the thrust
-/// T = l sin a (w/2 + P/2) / (l cos a + r) that the two exchange at the top and the ground returns,
-/// and the foot presses by w + P/2. (A force sideways at the top would relieve one foot and ask
-/// more of the other.) To the thickness of a card this is what one or two storeys need; three or
-/// more can do with a little less, as their outer pairs can carry more.
-double needed_friction(const Options& o) {
-    const Card card(o);
-    std::vector<double> load{0.0};  // on the tops of a storey's pairs, the last storey first [N]
-    for (int pairs = 2; pairs <= static_cast<int>(o.storeys); ++pairs) {
-        const double flat = card.flat_weight(pairs) / (pairs - 1);  // of each span
-        std::vector<double> below(static_cast<std::size_t>(pairs), 0.0);
-        for (std::size_t k = 0; k < load.size(); ++k)
-            for (std::size_t side = 0; side < 2; ++side)
-                below[k + side] += 0.5 * load[k] + card.weight() + 0.5 * flat;
-        load = below;
+    lab::CardHouse house() const {
+        return {storeys, length, thickness, lean * std::numbers::pi / 180, gap * length};
     }
-    const double most = 0.5 * *std::max_element(load.begin(), load.end()) / card.weight();
-    return card.l * std::sin(card.lean) / (card.l * std::cos(card.lean) + card.r) * (0.5 + most) /
-           (1.0 + most);
-}
-
-void build(talus::System<2>& system, const Options& o, double middle,
-           talus::MaterialIndex material) {
-    const Card card(o);
-    const talus::Capsule<2> shape(0.5 * card.l, card.r);
-    double floor = 0.0;
-    for (int pairs = static_cast<int>(o.storeys); pairs >= 1; --pairs) {
-        const double z = floor + card.r + 0.5 * card.l * std::cos(card.lean);
-        for (int k = 0; k < pairs; ++k)
-            for (const double side : {-1.0, 1.0}) {
-                const double top = middle + (k - 0.5 * (pairs - 1)) * card.pitch();
-                const double x = top + side * (card.r + 0.5 * card.l * std::sin(card.lean));
-                const double angle = 0.5 * std::numbers::pi + side * card.lean;
-                system.add(shape, density, lab::upright_pose<2>(x, z, angle), {}, material);
-            }
-        if (pairs > 1)
-            system.add(talus::Box<2>({card.flat_half(pairs), card.r}), density,
-                       lab::upright_pose<2>(middle, floor + card.storey() - card.r), {}, material);
-        floor += card.storey();
-    }
-}
+};
 
 /// Material 0: the table; 1 and 2: cards with the friction of each house.
 talus::System<2> table(const std::vector<double>& mu) {
@@ -99,7 +39,7 @@ talus::System<2> table(const std::vector<double>& mu) {
     for (const talus::MaterialIndex other : {0, 1, 2})
         laws.set(2, other, {talus::Coulomb<2>{mu[1]}});
     talus::System<2> system(laws);
-    system.gravity = {0.0, -g};
+    system.gravity = {0.0, -lab::CardHouse::g};
     system.add_obstacle(talus::HalfSpace<2>({0.0, 1.0}, 0.0));
     return system;
 }
@@ -110,7 +50,7 @@ double least_friction(const Options& o) {
     for (int k = 0; k < 16; ++k) {
         const double mu = 0.5 * (low + high);
         talus::System<2> system = table({mu, mu});
-        build(system, o, 0.0, 1);
+        o.house().build(system, 0.0, 1);
         const bool stands = talus::equilibrium<2>(system).verdict == talus::Verdict::equilibrium;
         (stands ? high : low) = mu;
     }
@@ -121,7 +61,7 @@ int stand(const lab::Command& command, const Options& o) {
     const double least = least_friction(o), pitch = (o.storeys + 2.0) * (1.0 + o.gap) * o.length;
     const std::vector<double> mu{least * (1 + o.apart), least * (1 - o.apart)};
     talus::System<2> system = table(mu);
-    for (const int house : {0, 1}) build(system, o, house * pitch, house + 1);
+    for (const int k : {0, 1}) o.house().build(system, k * pitch, k + 1);
     talus::Simulation<2> sim(std::move(system),
                              {.h = o.step, .step = {.scheme = talus::Scheme::gap_anticipating}});
     const auto& bodies = sim.system().bodies;
@@ -135,14 +75,12 @@ int stand(const lab::Command& command, const Options& o) {
 
     std::printf(
         "least friction by the one-step test: %.5f; by statics: %.5f (tan %.4g degrees: %.5f)\n",
-        least, needed_friction(o), o.lean, std::tan(Card(o).lean));
+        least, o.house().needed_friction(), o.lean, std::tan(o.lean * std::numbers::pi / 180));
     std::printf("friction   of the least   top sank [mm]   speed [m/s]\n");
     talus::CsvSeries rows(command.out() / "houses.csv",
                           {{"friction", "-"}, {"sunk", "m"}, {"speed", "m/s"}});
     for (std::size_t house = 0; house < 2; ++house) {
-        double speed = 0.0;
-        for (std::size_t i = 1 + house * cards; i <= (house + 1) * cards; ++i)
-            speed = std::max(speed, bodies.velocity[i].norm());
+        const double speed = lab::top_speed(bodies, 1 + house * cards, cards);
         const double sunk = built - top(house);
         std::printf("%8.5f   %12.4f   %13.4f   %11.2e\n", mu[house], mu[house] / least, 1e3 * sunk,
                     speed);
@@ -150,7 +88,7 @@ int stand(const lab::Command& command, const Options& o) {
     }
     lab::PictureParams look;
     look.title = "Houses of cards: with more friction than statics asks for, and with less";
-    look.unit = Card(o).weight();
+    look.unit = o.house().weight();
     look.unit_name = "weights of a card";
     look.strongest_width = 0.05;
     look.window = {{-0.5 * pitch, -0.05 * o.length}, {1.5 * pitch, (o.storeys + 0.2) * o.length}};

@@ -7,25 +7,20 @@
 // Sample runs:  examples/run column
 //               examples/run column --dim 3
 //               examples/run column --full
-#include <talus/io/series/csv_series.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+#include <vector>
 
 #include "lab/aim.hpp"
 #include "lab/command.hpp"
-#include "lab/measures/fits.hpp"
+#include "lab/measures/collapses.hpp"
 #include "lab/measures/reach.hpp"
 #include "lab/picture.hpp"
-#include "lab/plot.hpp"
 #include "lab/run.hpp"
 #include "lab/samples/fill.hpp"
 #include "lab/samples/rough_floor.hpp"
 #include "lab/samples/vessel.hpp"
-#include "lab/table.hpp"
 
 namespace {
 
@@ -44,16 +39,9 @@ lab::Vessel<Dim> vessel_of(const Options& o, double aspect) {
     return {std::pow(o.count / grains, 1.0 / Dim), o.diameter};
 }
 
-/// What columns become, a number for each.
-struct Collapses {
-    std::vector<double> aspect;           ///< H0 / L0 of what settled
-    std::vector<double> run_out, height;  ///< (L - L0) / L0, H / L0
-    std::vector<double> time;             ///< until 0.98 of L is reached, over sqrt(2 H0 / g)
-};
-
 /// One collapse, in a folder of its own; its exit code, from `stopped` on if it was.
 template <int Dim>
-int collapse(const lab::Command& command, const Options& o, double aspect, Collapses& found,
+int collapse(const lab::Command& command, const Options& o, double aspect, lab::Collapses& found,
              talus::RunSummary& summary) {
     using V = talus::Vector<Dim>;
     const V up = V::Unit(Dim - 1);
@@ -95,18 +83,8 @@ int collapse(const lab::Command& command, const Options& o, double aspect, Colla
         return run.exit_code();
     summary.add(run.summary());
 
+    found.add(run.folder(), length.values, often, o.step, half, column[0], top(), fall);
     const double end = length.values.back();
-    found.aspect.push_back(column.values[0] / half);
-    found.run_out.push_back(end / half - 1.0);
-    found.height.push_back(top() / half);
-    found.time.push_back(0.0);
-    talus::CsvSeries table(run.folder() / "length.csv", {{"length", "m"}});
-    for (std::size_t k = 0; k < length.values.size(); ++k) {
-        const double t = static_cast<double>((k + 1) * often) * o.step;
-        table.add(t, {length.values[k]});
-        if (found.time.back() == 0.0 && length.values[k] >= 0.98 * end)
-            found.time.back() = t / fall;
-    }
     const auto look =
         lab::in_weights("A column has collapsed", lab::Fill<Dim>(system, 0.0, 1.0).mass / o.count,
                         {-1.1 * end, Dim == 2 ? -o.diameter : -1.1 * end},
@@ -115,53 +93,27 @@ int collapse(const lab::Command& command, const Options& o, double aspect, Colla
     return run.finish();
 }
 
-/// The exponents of run-out and height over columns from `low` to `high`, beside what was found.
-void print_exponents(const Collapses& all, double low, double high, const char* reference) {
-    std::vector<double> aspect, run_out, height;
-    for (std::size_t k = 0; k < all.aspect.size(); ++k) {
-        if (all.aspect[k] < low || all.aspect[k] > high || !(all.run_out[k] > 0.0)) continue;
-        aspect.push_back(all.aspect[k]);
-        run_out.push_back(all.run_out[k]);
-        height.push_back(all.height[k]);
-    }
-    if (aspect.size() < 2) return;
-    const auto far = lab::fit_power(aspect, run_out), high_fit = lab::fit_power(aspect, height);
-    std::printf("a from %.2f to %.2f: run-out %.2f a^%.2f (%s); height %.2f a^%.2f\n",
-                aspect.front(), aspect.back(), far.factor, far.exponent, reference, high_fit.factor,
-                high_fit.exponent);
-}
-
 template <int Dim>
 int collapse_all(const lab::Command& command, const Options& o) {
-    Collapses all;
+    lab::Collapses all;
     talus::RunSummary summary;
     std::printf("    a   run-out / L0   height / L0   time / sqrt(2 H0 / g)\n");
     for (const double aspect : o.aspects) {
         const int code = collapse<Dim>(command, o, aspect, all, summary);
         if (code >= lab::stopped) return code;
-        std::printf("%5.2f   %12.3f   %11.3f   %21.2f\n", all.aspect.back(), all.run_out.back(),
-                    all.height.back(), all.time.back());
+        all.print();
     }
     std::printf(
         "references for the run-out: in experiments 1.2 a up to a = 2 and 1.9 a^(2/3) beyond, "
         "in space 1.24 a up to 1.7 and 1.6 a^(1/2) [Lube 2004, 2005]; discs 2.5 a, 3.25 a^0.7 "
         "[Staron and Hinch 2005]; time 2.2 to 2.6\n");
     const double bend = Dim == 2 ? 2.0 : 1.7;
-    print_exponents(all, 0.0, 1.15 * bend, "reference: 1.0 +- 0.15");
-    print_exponents(all, 0.85 * bend, 1e9,
-                    Dim == 2 ? "reference: 0.65 to 0.75" : "reference: 0.5 +- 0.1");
+    all.print_exponents(0.0, 1.15 * bend, "reference: 1.0 +- 0.15");
+    all.print_exponents(0.85 * bend, 1e9,
+                        Dim == 2 ? "reference: 0.65 to 0.75" : "reference: 0.5 +- 0.1");
     std::printf("%s\n", to_string(summary).c_str());
 
-    lab::write_table(command.out() / "columns.csv", {{"aspect ratio", all.aspect},
-                                                     {"run-out / L0", all.run_out},
-                                                     {"height / L0", all.height},
-                                                     {"time / sqrt(2 H0 / g)", all.time}});
-    lab::write_plot(command.out() / "columns.svg", {"Collapse of columns",
-                                                    "aspect ratio H0 / L0",
-                                                    "over L0",
-                                                    {{"run-out", all.aspect, all.run_out, true},
-                                                     {"height", all.aspect, all.height, true}},
-                                                    true});
+    all.write(command.out());
     return summary.certified() ? lab::certified : lab::not_certified;
 }
 

@@ -11,17 +11,16 @@
 //               examples/run dominoes --dim 3 --count 30
 //               examples/run dominoes --mu 0.2 --frames 50
 #include <talus/io/series/csv_series.hpp>
-#include <talus/measure/rings.hpp>
 #include <talus/stepping/simulation.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
 #include <vector>
 
 #include "lab/command.hpp"
+#include "lab/masonry/domino_row.hpp"
 #include "lab/masonry/domino_wave.hpp"
-#include "lab/masonry/upright.hpp"
 #include "lab/picture.hpp"
 #include "lab/plot.hpp"
 #include "lab/run.hpp"
@@ -35,27 +34,6 @@ struct Options {
            rows = 3, mu = 0.0, floor_mu = 10.0, push = 1.0, step = 1e-4;
 };
 
-/// A row of dominoes: how high, how far apart [m], where it begins and which bodies it is.
-struct Row {
-    double height, spacing, begin;
-    std::size_t first;
-};
-
-/// Adds a row whose first domino turns about its lower edge in front.
-template <int Dim>
-void add_row(talus::Simulation<Dim>& sim, const Options& o, const Row& row) {
-    const double h = row.height, d = o.thickness * h, spin = -o.push * std::sqrt(g / h);
-    const talus::Box<Dim> domino(lab::upright_half<Dim>(d, h, 0.5 * h));
-    for (int k = 0; k < static_cast<int>(o.count); ++k) {
-        talus::Twist<Dim> twist;
-        if (k == 0)
-            twist = {lab::upright_point<Dim>(-0.5 * h * spin, -0.5 * d * spin),
-                     lab::upright_turn<Dim>(spin)};
-        const double x = row.begin + k * (row.spacing + d);
-        sim.system().add(domino, 600.0, lab::upright_pose<Dim>(x, 0.5 * h), twist, 1);
-    }
-}
-
 template <int Dim>
 int topple(const lab::Command& command, const Options& o) {
     using V = talus::Vector<Dim>;
@@ -66,7 +44,7 @@ int topple(const lab::Command& command, const Options& o) {
     system.gravity = -g * V::Unit(Dim - 1);
     system.add_obstacle(talus::HalfSpace<Dim>(V::Unit(Dim - 1), 0.0));
 
-    std::vector<Row> rows;
+    std::vector<lab::DominoRow> rows;
     double begin = 0.0, duration = 0.0;
     const int different = static_cast<int>(o.rows);
     for (int k = 0; k <= different; ++k) {  // the last one: the middle one at twice the size
@@ -74,8 +52,9 @@ int topple(const lab::Command& command, const Options& o) {
         const double share = (twice ? different / 2 : k) / std::max(1.0, o.rows - 1.0);
         const double h = twice ? 2.0 * o.height : o.height;
         const double spacing = (o.narrow + share * (o.wide - o.narrow)) * h;
-        rows.push_back({h, spacing, begin, system.bodies.count()});
-        add_row(sim, o, rows.back());
+        const auto count = static_cast<std::size_t>(o.count);
+        rows.push_back({h, o.thickness * h, spacing, begin, count});
+        rows.back().add_to(system, -o.push * std::sqrt(g / h), 1);
         const double length = o.count * (spacing + o.thickness * h);
         begin += length + 3.0 * h;
         duration = std::max(duration, 1.2 * length / std::sqrt(g * h) + 20.0 * std::sqrt(h / g));
@@ -86,14 +65,13 @@ int topple(const lab::Command& command, const Options& o) {
     lab::Run<Dim> run(command, sim, "Dominoes");
     run.carry("times", times);
     run.begin();
-    const std::size_t floor = 1, last = static_cast<std::size_t>(o.count) - 1;
     const auto all_down = [&] {
-        for (const Row& row : rows)
-            if (!(times[row.first + last] <= sim.time())) return sim.time() > 3.0 * duration;
+        for (const lab::DominoRow& row : rows)
+            if (!(times[row.last()] <= sim.time())) return sim.time() > 3.0 * duration;
         return true;
     };
     const bool whole = run.until(all_down, duration, "falling", [&] {
-        for (std::size_t i = floor; i < system.bodies.count(); ++i) {
+        for (std::size_t i = 1; i < system.bodies.count(); ++i) {
             if (times[i] <= sim.time()) continue;
             const V up = system.bodies.pose(i).rotation * V::Unit(Dim - 1);
             if (up[Dim - 1] < std::cos(0.035)) times[i] = sim.time();
@@ -107,16 +85,8 @@ int topple(const lab::Command& command, const Options& o) {
         {{"spacing over height", "-"}, {"speed over sqrt(gh)", "-"}, {"theory", "-"}});
     std::printf("height [mm]   spacing/height   speed [m/s]   speed/sqrt(gh)   theory\n");
     double reference = 0.0, twice = 0.0;
-    for (const Row& row : rows) {
-        const double d = o.thickness * row.height, unit = std::sqrt(g * row.height);
-        std::vector<double> place, time;  // the second half: the wave has become steady
-        for (std::size_t k = last / 2; k + 2 <= last; ++k) {
-            place.push_back(static_cast<double>(k) * (row.spacing + d));
-            time.push_back(times[row.first + k]);
-        }
-        double speed = std::nan("");
-        if (std::isfinite(times[row.first + last]))
-            speed = 1.0 / talus::fit_line(place, time).slope;
+    for (const lab::DominoRow& row : rows) {
+        const double speed = row.speed(times.values), unit = std::sqrt(g * row.height);
         const double s = row.spacing / row.height, law = lab::domino_wave(s, o.thickness);
         std::printf("%11.4g   %14.4f   %11.4f   %14.4f   %6.4f\n", 1e3 * row.height, s, speed,
                     speed / unit, law);
@@ -137,7 +107,7 @@ int topple(const lab::Command& command, const Options& o) {
                                                   {measured, theory}});
     lab::PictureParams look;
     look.title = "Dominoes";
-    look.unit = g * system.bodies.mass(floor);
+    look.unit = g * system.bodies.mass(1);
     look.unit_name = "weights";
     const double length = rows[1].begin;
     look.window = {{-2.0 * o.height, Dim == 2 ? -0.3 * o.height : -2.0 * o.height},

@@ -8,9 +8,6 @@
 // Sample runs:  examples/run drum
 //               examples/run drum --shape angular
 //               examples/run drum --dim 3
-#include <talus/io/series/csv_series.hpp>
-#include <talus/measure/block_average.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,13 +15,14 @@
 
 #include "lab/aim.hpp"
 #include "lab/command.hpp"
+#include "lab/measures/avalanches.hpp"
 #include "lab/measures/reach.hpp"
-#include "lab/measures/turning_points.hpp"
 #include "lab/picture.hpp"
-#include "lab/plot.hpp"
 #include "lab/run.hpp"
 #include "lab/samples/grains.hpp"
 #include "lab/samples/move_on.hpp"
+#include "lab/samples/pour.hpp"
+#include "lab/samples/round_drum.hpp"
 
 namespace {
 
@@ -37,44 +35,16 @@ struct Options {
            threshold = 1.5, step = 2e-3, aim = 1e-3;
 };
 
-/// Mean with its error.
-void print_mean(const char* words, const std::vector<double>& values, std::size_t blocks) {
-    talus::BlockAverage average;
-    for (const double v : values) average.add(v);
-    std::printf("%s %.1f +- %.1f degrees", words, average.mean(), average.error(blocks));
-}
-
-void report(const lab::Command& command, const Options& o, const lab::Numbers& fast,
-            const lab::Numbers& slow, double interval) {
-    talus::CsvSeries table(command.out() / "angle.csv", {{"turns", "1/s"}, {"angle", "deg"}});
-    lab::Plot plot{"Surface of a rotating drum", "time [s]", "angle [degrees]", {}};
-    double t = 0.0;
-    for (const auto& [name, series, turns] :
-         {std::tuple{"fast", &fast, o.fast}, std::tuple{"slow", &slow, o.slow}}) {
-        lab::Curve& curve = plot.curves.emplace_back();
-        curve.name = name;
-        for (const double angle : series->values) {
-            table.add(t += interval, {turns, angle});
-            curve.x.push_back(t);
-            curve.y.push_back(angle);
-        }
-    }
-    lab::write_plot(command.out() / "angle.svg", plot);
-    const auto froude = [&](double turns) {
-        const double spin = 2.0 * std::numbers::pi * turns;
-        return spin * spin * o.radius * o.diameter / gravity;
-    };
+void report(const lab::Command& command, const Options& o, const lab::Turning& fast,
+            const lab::Turning& slow, double interval) {
+    lab::write_angles(command.out(), {fast, slow}, interval);
+    const double radius = o.radius * o.diameter;
     // The first half of the flow is the way there.
-    const std::vector<double> flow(fast.values.begin() + fast.values.size() / 2, fast.values.end());
-    std::printf("fast: Froude number %.2g; ", froude(o.fast));
-    print_mean("the surface leans by", flow, 8);
-    lab::TurningPoints turns(o.threshold);
-    for (const double angle : slow.values) turns.add(angle);
-    const auto peaks = turns.peaks(), valleys = turns.valleys();
-    std::printf("\nslow: Froude number %.2g; %zu avalanches", froude(o.slow), peaks.size());
-    if (!peaks.empty()) print_mean(", start at", peaks, 2);
-    if (!valleys.empty()) print_mean(", repose at", valleys, 2);
-    std::printf("\n");
+    const std::vector<double> flow(fast.angle.begin() + fast.angle.size() / 2, fast.angle.end());
+    std::printf("fast: Froude number %.2g; ", fast.froude(radius, gravity));
+    lab::print_mean_angle("the surface leans by", flow, 8);
+    std::printf("\nslow: Froude number %.2g; ", slow.froude(radius, gravity));
+    lab::print_avalanches(slow.angle, o.threshold);
 }
 
 template <int Dim>
@@ -91,16 +61,8 @@ int turn(const lab::Command& command, const Options& o) {
                                lab::solver_with_aim<Dim>(o.aim));
     auto& system = sim.system();
     system.gravity = -gravity * V::Unit(Dim - 1);
-    double room = std::numbers::pi * radius * radius;
-    talus::BodyIndex drum;
-    if constexpr (Dim == 2) {
-        drum = system.add_obstacle(talus::RoundHole<2>(radius), {}, 1);
-    } else {
-        drum = system.add_obstacle(talus::RoundHole<3>(radius, V::Unit(1)), {}, 1);
-        for (const double side : {-1.0, 1.0})  // smooth
-            system.add_obstacle(talus::HalfSpace<3>(side * V::Unit(1), -half), {}, 2);
-        room *= 2.0 * half;
-    }
+    const lab::RoundDrum<Dim> drum{radius, half};
+    const talus::BodyIndex wall = drum.add_to(system, 1, 2);  // its ends are smooth
     const double grain = std::numbers::pi / (2.0 * Dim) * std::pow(o.diameter, Dim);
     const double solid = Dim == 2 ? 0.82 : 0.6;
     V low = V::Constant(-0.5 * radius), high = V::Constant(0.5 * radius);
@@ -110,7 +72,7 @@ int turn(const lab::Command& command, const Options& o) {
         {.place = talus::in_box<Dim>(low, high),
          .shape = lab::grains<Dim>(o.shape == 1, talus::UniformRadii(0.4 * o.diameter, widest)),
          .rate = 1000.0,
-         .total = static_cast<std::int64_t>(o.fill * room * solid / grain),
+         .total = static_cast<std::int64_t>(o.fill * drum.volume() * solid / grain),
          .velocity = -1.0 * V::Unit(Dim - 1),
          .seed = command.seed()});
 
@@ -130,15 +92,9 @@ int turn(const lab::Command& command, const Options& o) {
         };
     };
     const auto spin_up = [&](double turns) {
-        talus::Twist<Dim> twist;
-        twist.angular[Dim == 2 ? 0 : 1] = (Dim == 2 ? 1.0 : -1.0) * 2.0 * std::numbers::pi * turns;
-        lab::move_on<Dim>(system, drum, twist);
+        lab::move_on<Dim>(system, wall, drum.turning(turns));
     };
-    const bool filled = run.until([&] { return inlet.done(); }, 1.0, "filling",
-                                  [&] {
-                                      inlet.feed(system, sim.time());
-                                      if (inlet.done()) full.time = std::min(full.time, sim.time());
-                                  });
+    const bool filled = lab::pour(run, sim, inlet, full, 1.0, "filling");
     const double begin = full.time + o.settle, flows = begin + o.flow, end = flows + o.creep;
     if (!filled || !run.until(begin, "settling")) return run.exit_code();
     // Either begins at this very step or did so before a stop.
@@ -146,7 +102,8 @@ int turn(const lab::Command& command, const Options& o) {
     if (!run.until(flows, "fast", watch(fast))) return run.exit_code();
     if (sim.time() < flows + 0.5 * o.step) spin_up(o.slow);
     if (!run.until(end, "slow", watch(slow))) return run.exit_code();
-    report(command, o, fast, slow, static_cast<double>(often) * o.step);
+    report(command, o, {"fast", o.fast, fast.values}, {"slow", o.slow, slow.values},
+           static_cast<double>(often) * o.step);
 
     const auto look = lab::in_weights("A rotating drum", 2600.0 * grain,
                                       {-1.1 * radius, -1.1 * (Dim == 2 ? radius : half)},

@@ -14,18 +14,16 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+#include <vector>
 
 #include "lab/aim.hpp"
 #include "lab/command.hpp"
-#include "lab/measures/fits.hpp"
+#include "lab/measures/beverloo.hpp"
 #include "lab/picture.hpp"
-#include "lab/plot.hpp"
 #include "lab/run.hpp"
 #include "lab/samples/fill.hpp"
 #include "lab/samples/flow.hpp"
 #include "lab/samples/vessel.hpp"
-#include "lab/table.hpp"
 
 namespace {
 
@@ -39,47 +37,6 @@ struct Options {
         return settle + static_cast<double>(stage) * (lead + measure);
     }
 };
-
-/// Flows by opening with their errors, and the law fitted to them.
-template <int Dim>
-void report(const lab::Command& command, const Options& o, const lab::Flow& flow, double density) {
-    flow.write_csv(command.out() / "flow.csv");
-    lab::Column opening{"opening [diameters]", o.openings}, mean{"flow [kg/s]", {}},
-        error{"error [kg/s]", {}};
-    std::vector<double> wide, found, root;  // root: of the flow, which grows as a line
-    constexpr double power = Dim - 0.5;
-    for (std::size_t k = 0; k < o.openings.size(); ++k) {
-        const auto average = flow.mean(o.begin(k) + o.lead, o.begin(k + 1));
-        mean.values.push_back(average.mean());
-        error.values.push_back(average.error(8));
-        std::printf("opening %5.2f d: %.4g +- %.2g kg/s\n", o.openings[k], mean.values[k],
-                    error.values[k]);
-        if (!(mean.values[k] > 0.0)) continue;  // blocked
-        wide.push_back(o.openings[k]);
-        found.push_back(mean.values[k]);
-        root.push_back(std::pow(mean.values[k], 1.0 / power));
-    }
-    lab::write_table(command.out() / "openings.csv", {opening, mean, error});
-    lab::Plot plot{"Flow out of a silo",
-                   "opening [diameters]",
-                   Dim == 2 ? "flow^(2/3) [(kg/s)^(2/3)]" : "flow^(2/5) [(kg/s)^(2/5)]",
-                   {}};
-    plot.curves = {{"measured", wide, root, true}, {"Beverloo, fitted", wide, {}}};
-    if (wide.size() >= 3) {
-        const auto free = lab::fit_offset_power(wide, found, 1.0, 2.0);
-        const auto line = talus::fit_line(wide, root);
-        const double unit = density * std::sqrt(gravity) * std::pow(o.diameter, power);
-        std::printf("exponent %.2f with k = %.2f (reference: %.1f +- %.1f, k from 1 to 2)\n",
-                    free.exponent, free.offset, power, Dim == 2 ? 0.1 : 0.2);
-        std::printf(
-            "with the exponent %.1f: k = %.2f, C = %.2f (Beverloo: 1.4 and, in space, "
-            "0.58), R^2 %.4f\n",
-            power, -line.at_zero / line.slope, std::pow(line.slope, power) / unit,
-            lab::r_squared(wide, root, [&](double x) { return line.at_zero + line.slope * x; }));
-        for (const double x : wide) plot.curves[1].y.push_back(line.at_zero + line.slope * x);
-    }
-    lab::write_plot(command.out() / "beverloo.svg", plot);
-}
 
 template <int Dim>
 int let_flow(const lab::Command& command, const Options& o) {
@@ -131,7 +88,12 @@ int let_flow(const lab::Command& command, const Options& o) {
     }
     again = false;
     if (!run.until(last + o.empty, "running empty", let)) return run.exit_code();
-    report<Dim>(command, o, flow, density.values[0]);
+    flow.write_csv(command.out() / "flow.csv");
+    lab::Beverloo<Dim> law;
+    for (std::size_t k = 0; k < o.openings.size(); ++k)
+        law.add(o.openings[k], flow.mean(o.begin(k) + o.lead, o.begin(k + 1)));
+    law.report(command.out(),
+               density.values[0] * std::sqrt(gravity) * std::pow(o.diameter, law.power));
     const double steady = flow.mean(last - o.measure, last).mean();
     const auto above = flow.mean(last, last + o.empty, high),
                below = flow.mean(last, last + o.empty, 0.5 * high, high);

@@ -10,19 +10,15 @@
 //               examples/run silo --full            (in space: --dim 3 --full --width 10)
 #include <talus/stepping/step_queries.hpp>
 
-#include <cmath>
-#include <cstdio>
-
 #include "lab/aim.hpp"
 #include "lab/command.hpp"
-#include "lab/measures/fits.hpp"
+#include "lab/measures/janssen.hpp"
 #include "lab/picture.hpp"
-#include "lab/plot.hpp"
 #include "lab/run.hpp"
 #include "lab/samples/fill.hpp"
 #include "lab/samples/move_on.hpp"
+#include "lab/samples/pour.hpp"
 #include "lab/samples/vessel.hpp"
-#include "lab/table.hpp"
 
 namespace {
 
@@ -32,44 +28,6 @@ struct Options {
     double dim = 2, width = 10, height = 5, diameter = 0.01, mu = 0.5, wall = 0.5, rate = 400,
            sink = 1, speed = 0.01, rest = 0.3, step = 1e-3, aim = 1e-3;
 };
-
-/// The law fitted to what is carried at each height; tables and a plot.
-template <int Dim>
-void report(const lab::Command& command, const Options& o, double area, const lab::Fill<Dim>& fill,
-            const lab::ForceProfile<Dim>& profile, const lab::Numbers& pouring) {
-    lab::Column height{"height above the floor [m]", {}}, above{"mass above [kg]", {}},
-        carried{"mass carried [kg]", {}};
-    for (std::size_t k = 0; k < profile.count(); ++k) {
-        height.values.push_back(profile.height(k, fill) - fill.bottom);
-        above.values.push_back(profile.mass(k));
-        carried.values.push_back(profile.force(k) / gravity);
-    }
-    const lab::SaturationFit fit = lab::fit_saturation(above.values, carried.values);
-    lab::write_table(command.out() / "profile.csv", {height, above, carried});
-
-    const double width = o.width * o.diameter;
-    const double length = fit.limit / (fill.density * area);
-    double off = 0.0;
-    for (std::size_t k = 0; k < profile.count(); ++k)
-        if (above.values[k] > 3.0 * fit.limit)
-            off = std::max(off, std::abs(carried.values[k] / fit.limit - 1.0));
-    std::printf("%.4g kg of grains; %.3f of them are carried below while the floor sinks\n",
-                fill.mass, carried.values[0] / fill.mass);
-    std::printf("m_inf %.4g +- %.2g kg, R^2 %.4f (reference: above 0.98)\n", fit.limit, fit.error,
-                fit.r_squared);
-    std::printf("Janssen's length %.2f widths, K = %.2f (reference: 0.4 to 1, Janssen 1895)\n",
-                length / width, width / (2.0 * (Dim - 1) * o.wall * length));
-    std::printf("below 3 lengths what is carried is off m_inf by %.1f %% (reference: 10 %%)\n",
-                100.0 * off);
-
-    lab::Plot plot{"What is carried in a silo", "mass above [kg]", "mass carried [kg]", {}};
-    plot.curves = {lab::curve_of("Janssen, fitted", fit, 0.0, fill.mass),
-                   {"while the floor sinks, by cuts", above.values, carried.values, true},
-                   {"by the floor, while grains come", {}, {}, true}};
-    for (std::size_t k = 0; k < pouring.values.size(); ++k)
-        (k % 2 == 0 ? plot.curves[2].x : plot.curves[2].y).push_back(pouring.values[k]);
-    lab::write_plot(command.out() / "janssen.svg", plot);
-}
 
 template <int Dim>
 int fill_and_sink(const lab::Command& command, const Options& o) {
@@ -107,16 +65,12 @@ int fill_and_sink(const lab::Command& command, const Options& o) {
     const auto contents = [&] {
         return lab::Fill<Dim>(system, system.bodies.position[floor][Dim - 1], vessel.area());
     };
-    const auto pour = [&] {
-        if (sim.step_count() % 50 == 0) {
-            const auto force = talus::wrench_impulse_on(sim.data(), floor).force / o.step;
-            pouring.values.insert(pouring.values.end(),
-                                  {contents().mass, -force[Dim - 1] / gravity});
-        }
-        inlet.feed(system, sim.time());
-        if (inlet.done()) full.time = std::min(full.time, sim.time());
+    const auto weigh = [&] {
+        if (sim.step_count() % 50 != 0) return;
+        const auto force = talus::wrench_impulse_on(sim.data(), floor).force / o.step;
+        pouring.values.insert(pouring.values.end(), {contents().mass, -force[Dim - 1] / gravity});
     };
-    if (!run.until([&] { return inlet.done(); }, grains / o.rate, "pouring", pour) ||
+    if (!lab::pour(run, sim, inlet, full, grains / o.rate, "pouring", weigh) ||
         !run.until(full.time + o.rest, "resting"))
         return run.exit_code();
     // Begins at this very step, or did before a stop.
@@ -128,7 +82,9 @@ int fill_and_sink(const lab::Command& command, const Options& o) {
             profile.record(sim, contents());
     });
     if (!whole) return run.exit_code();
-    report<Dim>(command, o, vessel.area(), contents(), profile, pouring);
+    const lab::Janssen<Dim> law(contents(), profile, gravity);
+    law.print(vessel, o.wall);
+    law.write(command.out(), pouring);
 
     const double side = Dim == 2 ? 0.6 * top : 0.55 * vessel.width;
     const auto look = lab::in_weights("A silo whose floor sinks", contents().mass / grains,

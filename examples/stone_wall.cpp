@@ -12,16 +12,13 @@
 #include <talus/io/series/csv_series.hpp>
 #include <talus/stepping/simulation.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "lab/command.hpp"
 #include "lab/masonry/ground_record.hpp"
-#include "lab/masonry/upright.hpp"
+#include "lab/masonry/running_bond.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
 
@@ -35,87 +32,31 @@ struct Options {
     std::string record;
 };
 
-/// Every second course begins and ends with half a stone. Returns the course of each stone.
-template <int Dim>
-std::vector<std::size_t> build(talus::System<Dim>& system, const Options& o) {
-    std::vector<std::size_t> course_of;
-    const double end = 0.5 * o.stones * o.length;
-    for (std::size_t course = 0; course < static_cast<std::size_t>(o.courses); ++course) {
-        const double z = (static_cast<double>(course) + 0.5) * o.height;
-        double x = -end;
-        while (x < end - 1e-9 * o.length) {
-            const bool half = course % 2 == 1 && (x == -end || x > end - 0.75 * o.length);
-            const double length = half ? 0.5 * o.length : o.length;
-            system.add(talus::Box<Dim>(lab::upright_half<Dim>(length, o.height, o.depth)), density,
-                       lab::upright_pose<Dim>(x + 0.5 * length, z));
-            course_of.push_back(course);
-            x += length;
-        }
-    }
-    return course_of;
-}
-
-/// The gust: a pressure p(t) on what is the wall's face before anything has moved, stone by stone.
-template <int Dim>
-talus::ForceField<Dim> gust(const talus::System<Dim>& system, const Options& o, double begin) {
-    constexpr int axis = Dim - 2;
-    double face = 0.0;
-    std::vector<double> area(system.bodies.count(), 0.0);  // [m^(Dim-1)]
-    const auto low = [&](std::size_t i) {
-        return talus::view_of<Dim>(system.shapes()[i]).aabb(system.bodies.pose(i)).low[axis];
-    };
-    for (std::size_t i = 1; i < area.size(); ++i) face = std::min(face, low(i));
-    for (std::size_t i = 1; i < area.size(); ++i) {
-        const double thick = 2.0 * (system.bodies.position[i][axis] - low(i));
-        if (low(i) < face + 0.1 * thick) area[i] = system.bodies.mass(i) / density / thick;
-    }
-    return [=](double t, const talus::Bodies<Dim>& bodies, std::span<talus::Wrench<Dim>> wrenches) {
-        if (t < begin || t > begin + o.blow) return;
-        const double wave = std::sin(std::numbers::pi * (t - begin) / o.blow);
-        for (std::size_t i = 1; i < std::min(area.size(), bodies.count()); ++i)
-            wrenches[i].force[axis] += o.gust * wave * wave * area[i];
-    };
-}
-
 template <int Dim>
 int shake(const lab::Command& command, const Options& o) {
     using V = talus::Vector<Dim>;
-    constexpr int axis = Dim - 2;  // of shaking and of the gust: in space across the wall
     lab::GroundRecord record = o.record.empty()
                                    ? lab::made_up_earthquake(o.quake, o.peak * g, command.seed())
                                    : lab::read_ground_record(o.record);
     if (!o.record.empty() && o.peak > 0.0) record.scale_to(o.peak * g);
-    std::vector<V> shaken;
-    for (const double a : record.acceleration) shaken.push_back(a * V::Unit(axis));
-
     talus::Simulation<Dim> sim({talus::Coulomb<Dim>{o.mu}}, {.h = o.step});
     auto& system = sim.system();
     system.gravity = -g * V::Unit(Dim - 1);
-    const auto ground = system.add_obstacle(
-        talus::HalfSpace<Dim>(V::Unit(Dim - 1), 0.0),
-        talus::PrescribedMotion<Dim>::of_accelerations({}, record.time, shaken));
-    const std::vector<std::size_t> course_of = build<Dim>(system, o);
+    // In space across the wall.
+    const auto ground =
+        system.add_obstacle(talus::HalfSpace<Dim>(V::Unit(Dim - 1), 0.0),
+                            lab::ground_motion<Dim>(record, lab::RunningBond<Dim>::across));
+    lab::RunningBond<Dim> wall(o.courses, o.stones, o.length, o.height, o.depth, density);
+    wall.build(system);
     const double begin = record.time.back() + 1.0;
-    system.forces.push_back(gust<Dim>(system, o, begin));
-    const std::vector<V> built(system.bodies.position.begin(), system.bodies.position.end());
+    system.forces.push_back(wall.gust(system, o.gust, begin, o.blow));
 
     lab::Run<Dim> run(command, sim, "A dry-stone wall");
     lab::Numbers after_quake;
     run.carry("after_quake", after_quake);
     run.begin();
-    // Of each course the mean way from where it was built, and the deepest fall of a stone [m].
     const auto residual = [&] {
-        std::vector<double> way(static_cast<std::size_t>(o.courses) + 1, 0.0);
-        std::vector<double> count(way.size(), 0.0);
-        for (std::size_t k = 0; k < course_of.size(); ++k) {
-            const V moved =
-                system.bodies.position[k + 1] - built[k + 1] - system.bodies.position[ground];
-            way[course_of[k]] += moved[axis];
-            count[course_of[k]] += 1.0;
-            way.back() = std::max(way.back(), -moved[Dim - 1]);
-        }
-        for (std::size_t k = 0; k + 1 < way.size(); ++k) way[k] /= count[k];
-        return way;
+        return wall.residual(system.bodies, system.bodies.position[ground]);
     };
     if (!run.until(begin, "shaking")) return run.exit_code();
     if (after_quake.empty()) after_quake.values = residual();

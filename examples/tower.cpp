@@ -10,15 +10,12 @@
 #include <talus/io/series/csv_series.hpp>
 #include <talus/stepping/simulation.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
-#include <string>
-#include <vector>
 
 #include "lab/command.hpp"
 #include "lab/masonry/ground_record.hpp"
+#include "lab/masonry/plank_tower.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
 
@@ -31,44 +28,21 @@ struct Options {
     double layers = 10, planks = 3, length = 0.117, width = 0.0234, height = 0.0078, mu = 0.4,
            stand = 2.0, then = 0, layer = 4, rate = 0.2, peak = 0.3, quake = 5.0, after = 2.0,
            step = 1e-3;
-    V half() const { return 0.5 * V(length, width, height); }
-    std::size_t bodies() const { return 1 + static_cast<std::size_t>(layers * planks); }
-    /// Of the plank that is pulled: in the middle of its layer, or the one after.
-    std::size_t pulled() const {
-        return 1 + static_cast<std::size_t>((layer - 1.0) * planks + std::floor(planks / 2.0));
-    }
 };
-
-void build(talus::System<3>& system, const Options& o) {
-    const talus::Box<3> plank(o.half());
-    const double apart = (o.length - o.width) / (o.planks - 1.0);
-    for (int layer = 0; layer < static_cast<int>(o.layers); ++layer)
-        for (int k = 0; k < static_cast<int>(o.planks); ++k) {
-            const bool crosswise = layer % 2 == 1;
-            V at = V::Zero();
-            at[crosswise ? 0 : 1] = (k - 0.5 * (o.planks - 1.0)) * apart;
-            at[2] = (layer + 0.5) * o.height;
-            const V turn = crosswise ? V(0.0, 0.0, 0.5 * std::numbers::pi) : V(V::Zero());
-            system.add(plank, density, {at, talus::Rotation<3>::exp(turn)});
-        }
-}
 
 /// The floor rests while the tower is to stand, and then shakes along axis 0.
 talus::PrescribedMotion<3> floor_motion(const Options& o, std::uint64_t seed) {
     if (o.then == 0) return {};
-    lab::GroundRecord record = lab::made_up_earthquake(o.quake, o.peak * g, seed);
-    std::vector<V> shaken;
-    for (double& t : record.time) t += o.stand;
-    for (const double a : record.acceleration) shaken.push_back(a * V::Unit(0));
-    return talus::PrescribedMotion<3>::of_accelerations({}, record.time, shaken);
+    const lab::GroundRecord record = lab::made_up_earthquake(o.quake, o.peak * g, seed);
+    return lab::ground_motion<3>(record, 0, o.stand);
 }
 
 /// A pull along the plank that grows in time, until the plank has gone its length.
-talus::ForceField<3> pull(const Options& o, const V& place, const V& along) {
+talus::ForceField<3> pull(const Options& o, const lab::PlankTower& tower, std::size_t plank,
+                          const V& along) {
     return [=](double t, const talus::Bodies<3>& bodies, std::span<talus::Wrench<3>> wrenches) {
-        const std::size_t i = o.pulled();
-        if (t < o.stand || (bodies.position[i] - place).dot(along) > o.length) return;
-        wrenches[i].force += o.rate * (t - o.stand) * along;
+        if (t < o.stand || tower.way(bodies, plank).dot(along) > o.length) return;
+        wrenches[plank].force += o.rate * (t - o.stand) * along;
     };
 }
 
@@ -78,18 +52,12 @@ int stand(const lab::Command& command, const Options& o) {
     auto& system = sim.system();
     system.gravity = -g * V::Unit(2);
     system.add_obstacle(talus::HalfSpace<3>(V::Unit(2), 0.0), floor_motion(o, command.seed()));
-    build(system, o);
+    lab::PlankTower tower(o.layers, o.planks, {o.length, o.width, o.height});
+    tower.build(system, density);
     const auto& bodies = system.bodies;
-    const std::size_t plank = o.pulled();
-    const std::vector<V> built(bodies.position.begin(), bodies.position.end());
+    const std::size_t plank = tower.middle_of(o.layer);
     const V along = bodies.pose(plank).rotation * V::Unit(0);
-    if (o.then == 0) system.forces.push_back(pull(o, built[plank], along));
-    const auto sunk = [&] {  // of the tower above the layer, without the plank
-        double most = 0.0;
-        for (std::size_t i = 1; i < o.bodies(); ++i)
-            if (i != plank) most = std::max(most, built[i][2] - bodies.position[i][2]);
-        return most;
-    };
+    if (o.then == 0) system.forces.push_back(pull(o, tower, plank, along));
 
     lab::Run<3> run(command, sim, "A tower of planks");
     // How far it sank while it was to stand [m]; of the moment when the plank slipped the sum of
@@ -97,13 +65,14 @@ int stand(const lab::Command& command, const Options& o) {
     lab::Numbers found{{0.0, std::nan(""), std::nan("")}};
     run.carry("found", found);
     run.begin();
-    if (!run.until(o.stand, "standing", [&] { found[0] = sunk(); })) return run.exit_code();
+    if (!run.until(o.stand, "standing", [&] { found[0] = tower.sunk(bodies, plank); }))
+        return run.exit_code();
     const double weight = g * bodies.mass(plank), above = (o.layers - o.layer) * o.planks * weight;
     const double most = o.mu * (2.0 * above + weight);  // if this plank alone carries all
     const double time = o.then == 0 ? most / o.rate : o.quake;
     const bool whole =
         run.until(o.stand + time + o.after, o.then == 0 ? "pulling" : "shaking", [&] {
-            const double way = (bodies.position[plank] - built[plank]).dot(along);
+            const double way = tower.way(bodies, plank).dot(along);
             if (!std::isnan(found[2]) || o.then != 0 || way < 1e-3 * o.length) return;
             found[1] = lab::loads(sim)[plank];
             found[2] = o.rate * (sim.time() - o.stand);
@@ -123,7 +92,7 @@ int stand(const lab::Command& command, const Options& o) {
             "%.3f g\n",
             o.peak, o.mu, o.length / (o.layers * o.height));
     }
-    const double end = sunk();
+    const double end = tower.sunk(bodies, plank);  // without the plank
     std::printf("then it sank by %.4f mm and %s\n", 1e3 * end,
                 end > 0.5 * o.height ? "fell" : "stands");
     talus::CsvSeries table(command.out() / "tower.csv",

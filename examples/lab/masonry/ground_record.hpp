@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/dynamics/prescribed_motion.hpp>
 #include <talus/io/line_reader.hpp>
 #include <talus/sample/random.hpp>
 
@@ -106,6 +107,16 @@ inline GroundRecord made_up_earthquake(double duration, double peak, std::uint64
             of_level * level.acceleration[i] + of_slope * slope.acceleration[i];
     record.scale_to(peak);
     return record;
+}
+
+/// The ground's motion by a record along an axis, from a time `begin` on [s]; before that it rests.
+template <int Dim>
+talus::PrescribedMotion<Dim> ground_motion(GroundRecord record, int axis, double begin = 0.0) {
+    using V = talus::Vector<Dim>;
+    std::vector<V> shaken;
+    for (double& t : record.time) t += begin;
+    for (const double a : record.acceleration) shaken.push_back(a * V::Unit(axis));
+    return talus::PrescribedMotion<Dim>::of_accelerations({}, record.time, shaken);
 }
 
 /// How far a block slips on ground that shakes so, [m]: N. M. Newmark's sliding block (Effects of

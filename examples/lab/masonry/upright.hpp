@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/dynamics/bodies.hpp>
 #include <talus/geometry/convex_polytope.hpp>
 #include <talus/spatial/pose.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -41,6 +44,15 @@ template <int Dim>
 double upright_angle(const talus::Rotation<Dim>& rotation) {
     const talus::Vector<Dim> along = rotation * talus::Vector<Dim>::Unit(0);
     return std::atan2(along[Dim - 1], along[0]);
+}
+
+/// The fastest of so many bodies from `first` on [m/s].
+template <int Dim>
+double top_speed(const talus::Bodies<Dim>& bodies, std::size_t first, std::size_t count) {
+    double speed = 0.0;
+    for (std::size_t i = first; i < first + count; ++i)
+        speed = std::max(speed, bodies.velocity[i].norm());
+    return speed;
 }
 
 /// Half extents of a box that wide and high, in space that deep [m].

@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "../picture.hpp"
+
 namespace lab {
 
 /// The free surface of grains of the plane between two abscissae: the topmost centre in each of
@@ -71,6 +73,17 @@ inline talus::Vector<2> force_across(const talus::Simulation<2>& sim, const Surf
                    .force;
     }
     return sum;
+}
+
+/// For a picture: a surface between two abscissae, and in its middle the cuts that meet in a depth
+/// [m], one upright and one along the surface.
+inline std::vector<talus::DrawnLine> drawn_cuts(const SurfaceLine& surface, double from, double to,
+                                                double depth) {
+    const auto below = [&](double x, double down) { return Point(x, surface.height(x) - down); };
+    const double middle = 0.5 * (from + to), quarter = 0.25 * (to - from);
+    return {{{below(from, 0.0), below(to, 0.0)}},
+            {{below(middle, 0.0), below(middle, 2.0 * depth)}},
+            {{below(middle - quarter, depth), below(middle + quarter, depth)}}};
 }
 
 }  // namespace lab
