@@ -31,14 +31,18 @@ inline double highest_grain(const talus::System<2>& system, double x, double hal
 }
 
 /// Sleepers of concrete at these places, each `above` [m] the highest grain under it. They are the
-/// last bodies.
+/// last bodies. They go up and down alone: the rail, far stiffer than the bed, holds them level and
+/// at their distance.
 inline void lay_sleepers(talus::System<2>& system, const std::vector<double>& places,
                          double above) {
     const talus::Vector<2> half(0.15, 0.1);
     std::vector<double> tops;
     for (const double x : places) tops.push_back(highest_grain(system, x, half[0]));
-    for (std::size_t k = 0; k < places.size(); ++k)
-        system.add(talus::Box<2>(half), 2400.0, {{places[k], tops[k] + half[1] + above}, {}});
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const auto sleeper =
+            system.add(talus::Box<2>(half), 2400.0, {{places[k], tops[k] + half[1] + above}, {}});
+        system.bodies.lock(sleeper, talus::LockedAxes<2>::all_but_translation(1));
+    }
 }
 
 /// A plate of that half width [m], the last body, that goes up and down alone, on the bed under it.
