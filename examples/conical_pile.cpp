@@ -19,12 +19,16 @@
 #include <vector>
 
 #include "lab/command.hpp"
+#include "lab/measures/heap_cuts.hpp"
+#include "lab/measures/ring_profile.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
+#include "lab/samples/pour.hpp"
 #include "lab/samples/rough_floor.hpp"
-#include "lab/table.hpp"
 
 namespace {
+
+constexpr double degree = 180.0 / std::numbers::pi;
 
 struct Options {
     double dim = 3, count = 1500, radius = 0.005, mu = 0.5, rate = 1000, step = 1e-3, rest = 2.0,
@@ -71,12 +75,7 @@ int pile_up(const lab::Command& command, const Options& o) {
     run.carry("poured", poured);
     run.carry("pressure", pressure);
     run.begin();
-    const auto pour = [&] {
-        inlet.feed(system, sim.time());
-        if (inlet.done()) poured.time = std::min(poured.time, sim.time());
-    };
-    if (!run.until([&] { return inlet.done(); }, o.count / o.rate, "pouring", pour))
-        return run.exit_code();
+    if (!lab::pour(run, sim, inlet, poured, o.count / o.rate, "pouring")) return run.exit_code();
     std::vector<V> forces;
     const bool whole = run.until(poured.time + o.rest, "resting", [&] {
         if (sim.time() < poured.time + 0.5 * o.rest) return;  // until it has come to rest
@@ -94,26 +93,25 @@ int pile_up(const lab::Command& command, const Options& o) {
     const auto heights =
         talus::surface_heights(pressure.rings(), system.bodies, system.half_thickness(),
                                [&](std::size_t i) { return i >= ground; });
-    std::vector<double> middle, flank;
-    double largest = 0.0;
-    std::vector<std::vector<double>> rows;
-    std::printf("ring at [mm]   pressure [%s]   height [mm]\n", Dim == 2 ? "N/m" : "Pa");
-    for (std::size_t k = 0; k < pressure.rings().count() && pressure.pressure(k) > 0.0; ++k) {
-        middle.push_back(pressure.rings().middle(k));
-        flank.push_back(k >= 2 ? heights[k] : std::nan(""));
-        largest = std::max(largest, pressure.pressure(k));
-        rows.push_back({middle[k], pressure.pressure(k), heights[k]});
-        std::printf("%12.1f   %13.4g   %11.1f\n", 1e3 * middle[k], pressure.pressure(k),
-                    1e3 * heights[k]);
-    }
-    lab::write_rows(
-        command.out() / "rings.csv",
-        {{"ring at [m]"}, {Dim == 2 ? "pressure [N/m]" : "pressure [Pa]"}, {"height [m]"}}, rows);
-    const talus::LineFit slope = talus::fit_line(middle, flank);
+    const lab::RingProfile<Dim> profile(pressure, heights);
+    profile.print();
+    profile.write(command.out());
     std::printf("%lld grains; the ground carries %.4f of their weight\n",
                 static_cast<long long>(inlet.count()), pressure.force() / weight);
-    std::printf("slope %.1f degrees; pressure under the summit over the largest: %.2f\n",
-                slope.angle() * 180.0 / std::numbers::pi, pressure.pressure(0) / largest);
+    if (profile.sloped()) {
+        const talus::LineFit& slope = profile.slope();
+        std::printf("slope %.1f degrees; pressure under the summit over the largest: %.2f\n",
+                    slope.angle() * degree, profile.under_summit());
+        // Half-way down the flank, three grains deep, over six.
+        const lab::HeapCuts<Dim> cuts(sim, slope, 0.5 * profile.radius(), 6.0 * o.radius,
+                                      6.0 * o.radius, o.radius);
+        std::printf(
+            "across a cylinder half as wide as the heap the force leans by %.0f degrees "
+            "(along the surface: %.0f)\n    and carries %.3f of the weight; across cuts along "
+            "the surface it is %.0f degrees from the vertical (0)\n",
+            cuts.angle_on_core() * degree, slope.angle() * degree, cuts.carried() / weight,
+            cuts.angle_on_flank() * degree);
+    }
 
     lab::PictureParams look;
     look.title = "A heap from a point source on a rough floor";

@@ -17,21 +17,6 @@
 namespace lab {
 namespace {
 
-struct Number {
-    std::string option;
-    double* value;
-    double at_full;
-    CLI::Option* given;
-    bool whole = false;
-};
-
-struct List {
-    std::string option;
-    std::vector<double>* values;
-    std::vector<double> at_full;
-    CLI::Option* given;
-};
-
 std::string joined(const std::vector<double>& values, std::string (*text)(double)) {
     std::string list;
     for (const double x : values) list += (list.empty() ? "" : ",") + text(x);
@@ -46,6 +31,21 @@ std::string exact(double x) {
 }  // namespace
 
 struct Command::Parts {
+    struct Number {
+        std::string option;
+        double* value;
+        double at_full;
+        CLI::Option* given;
+        bool whole = false;
+    };
+
+    struct List {
+        std::string option;
+        std::vector<double>* values;
+        std::vector<double> at_full;
+        CLI::Option* given;
+    };
+
     Parts(const std::string& program, const std::string& about)
         : name(program), app(about, program) {}
     std::string name, out = name + "-out";
@@ -163,9 +163,9 @@ bool Command::read(int argc, char** argv) {
         throw talus::input_error(std::string(error.what()) + " (" + name() +
                                  " --help lists the options)");
     }
-    for (const List& l : parts_->lists)
+    for (const Parts::List& l : parts_->lists)
         if (parts_->full && l.given->count() == 0) *l.values = l.at_full;
-    for (const Number& n : parts_->numbers) {
+    for (const Parts::Number& n : parts_->numbers) {
         if (parts_->full && n.given->count() == 0) *n.value = n.at_full;
         if (n.whole && *n.value != std::floor(*n.value))
             throw talus::input_error(n.option + " is " + talus::detail::text_of(*n.value) +
@@ -176,10 +176,11 @@ bool Command::read(int argc, char** argv) {
 
 std::string Command::label() const {
     std::string text = name() + " --seed " + exact(parts_->seed);
-    for (const Number& n : parts_->numbers) text += " " + n.option + " " + exact(*n.value);
+    for (const Parts::Number& n : parts_->numbers) text += " " + n.option + " " + exact(*n.value);
     for (const auto& [option, path] : parts_->files)
         if (!path->empty()) text += " " + option + " " + *path;
-    for (const List& l : parts_->lists) text += " " + l.option + " " + joined(*l.values, exact);
+    for (const Parts::List& l : parts_->lists)
+        text += " " + l.option + " " + joined(*l.values, exact);
     return text;
 }
 
