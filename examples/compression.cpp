@@ -58,11 +58,12 @@ bool compress(const lab::Command& command, const Options& o, double mu, double s
         loosened.value = 1.0;
     }
     if (whole) {
-        // Which contacts bear is told apart at rest, and solved accurately.
-        sim.solver() = talus::AcceleratedGaussSeidel<Dim, talus::DefaultLaw<Dim>>(
-            {.max_iterations = 200000,
-             .tolerance = o.fine,
-             .acceleration = talus::Acceleration::nesterov});
+        // Which contacts bear without friction is told apart at rest, and solved accurately.
+        if (mu == 0.0)
+            sim.solver() = talus::AcceleratedGaussSeidel<Dim, talus::DefaultLaw<Dim>>(
+                {.max_iterations = 200000,
+                 .tolerance = o.fine,
+                 .acceleration = talus::Acceleration::nesterov});
         whole = run.until(o.press + o.rest, std::string(part) + " resting");
     }
     if (whole) {
@@ -97,7 +98,7 @@ bool compare_sizes(const lab::Command& command, const Options& o, double mu,
         x.push_back(size);
         solid.push_back(p.solid);
     }
-    const char* expected[2][2] = {{"0.84 [0.79 to 0.82]"}, {"0.64 [0.59 to 0.61]"}};
+    const char* expected[2][2] = {{"0.84", "0.79 to 0.82"}, {"0.64", "0.59 to 0.61"}};
     std::printf(
         "    walls take room of the size of grains: without, the solid fraction would be "
         "%.3f (far from walls %s)\n",
@@ -123,7 +124,7 @@ int main(int argc, char** argv) {
         command.number("--press", o.press, 1e-6, 1e6, "time to press [s]");
         command.number("--rest", o.rest, 1e-6, 1e6, "time to rest, solved accurately [s]");
         command.number("--step", o.step, 1e-9, 1, "step size [s]");
-        command.number("--fine", o.fine, 1e-12, 1e-3, "tolerance at rest");
+        command.number("--fine", o.fine, 1e-12, 1e-3, "tolerance at rest without friction");
         if (!command.read(argc, argv)) return 0;
         std::vector<std::vector<double>> rows;
         talus::RunSummary all;

@@ -122,9 +122,8 @@ def run_all(names, options, results):
             if seed == 1:
                 for picture in experiments[name]["pictures"]:
                     to_png(out / picture["file"], HERE / picture["png"])
-        for name, runs in done.items():
-            results[name] = sorted(runs, key=lambda run: run["seed"])
-    (HERE / "results.json").write_text(json.dumps(results, indent=1, sort_keys=True) + "\n")
+            results[name] = sorted(done[name], key=lambda run: run["seed"])  # at once: what follows may be stopped
+            (HERE / "results.json").write_text(json.dumps(results, indent=1, sort_keys=True) + "\n")
     return failed
 
 
