@@ -31,7 +31,7 @@ void add_outlines(const talus::ShapeView<2>& shape, const talus::Pose<2>& pose, 
     using Kind = talus::ShapeKind;
     talus::DrawnGrain drawn{pose.position, size, load, {}};
     const auto arc = [&](const Point& centre, double radius, double from, double to) {
-        constexpr int sides = 24;
+        const int sides = static_cast<int>(std::ceil(16.0 * std::abs(to - from)));
         for (int k = 0; k <= sides; ++k) {
             const double angle = from + (to - from) * k / sides;
             drawn.outline.push_back(centre + radius * Point(std::cos(angle), std::sin(angle)));
