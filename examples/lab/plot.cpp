@@ -44,6 +44,14 @@ struct Axis {
     std::vector<double> ticks() const {
         std::vector<double> found;
         const double span = high - low;
+        if (logarithmic && span < 2.5) {
+            for (double decade = std::floor(low); decade <= high; ++decade)
+                for (const double factor : {1.0, 2.0, 5.0})
+                    if (const double t = factor * std::pow(10.0, decade);
+                        along(t) >= low && along(t) <= high)
+                        found.push_back(t);
+            return found;
+        }
         double step = std::pow(10.0, std::floor(std::log10(span / 4.0)));
         for (const double factor : {5.0, 2.0})
             if (factor * step <= span / 4.0) {
