@@ -2,10 +2,10 @@
 //
 // Rows of dominoes, the first of each pushed over: how fast does the wave run? Rows of several
 // spacings, and one of dominoes twice as high, against J. M. J. van Leeuwen's steady wave for
-// dominoes without friction between them (lab/domino_wave.hpp). By dimensions alone the speed is
-// sqrt(g h) times a number of the row's proportions. In that theory the edge on which a plate turns
-// stays where it is; beyond a spacing of 0.4 h the ground would have to pull it down before the
-// hit, so that plates hop, and waves are a little slower than it says.
+// dominoes without friction between them (lab/masonry/domino_wave.hpp). By dimensions alone the
+// speed is sqrt(g h) times a number of the row's proportions. In that theory the edge on which a
+// plate turns stays where it is; beyond a spacing of 0.4 h the ground would have to pull it down
+// before the hit, which may be why waves are a little slower than it says.
 //
 // Sample runs:  examples/run dominoes
 //               examples/run dominoes --dim 3 --count 30
