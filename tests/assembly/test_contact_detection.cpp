@@ -47,7 +47,7 @@ struct Row {
     std::string said(talus::Column<talus::CandidatePair> pairs) {
         Told::pairs = std::move(pairs);
         try {
-            detection.detect(bodies, shapes, 1, radius, 0.1, reach, {}, 0.0, {}, contacts);
+            detection.detect(bodies, {shapes, radius, 1}, 0.1, reach, {}, 0.0, {}, contacts);
         } catch (const talus::input_error& error) {
             return error.what();
         }

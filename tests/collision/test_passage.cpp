@@ -32,8 +32,9 @@ struct Flight {
         talus::Column<talus::ContactPoint<Dim>> present, near;
         talus::contact_points<Dim>(cube, a.pose, cube, b.pose, reach, present);
         BOOST_TEST_REQUIRE(!present.empty());
-        meeting =
-            talus::Passage<Dim>(a, b, {}, nullptr, 1e-6, reach, near).append(present, contacts);
+        meeting = talus::Passage<Dim>(a, b, talus::narrow_routines<Dim, talus::AnyShape<Dim>>, 1e-6,
+                                      reach, near)
+                      .append(present, contacts);
     }
 };
 

@@ -138,6 +138,55 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_body_that_grows_is_met, D, dimensions) {
     BOOST_CHECK_THROW(system.set_shape(-1, talus::Ball<Dim>(1.0)), talus::input_error);
 }
 
+/// The narrow phase has routines for the shapes there are alone: however a box comes in, balls that
+/// were there before rest on it.
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_that_comes_late_brings_its_routines, D, dimensions) {
+    constexpr int dim = D::value;
+    enum class Way { body, obstacle, given_inertia, any, replaced, restored };
+    for (const Way way :
+         {Way::body, Way::obstacle, Way::given_inertia, Way::any, Way::replaced, Way::restored}) {
+        const auto balls = [] {
+            talus::Simulation<dim> sim({talus::Coulomb<dim>{.mu = 0.3}},
+                                       talus::SimulationParams{.h = 1e-3});
+            auto& system = sim.system();
+            system.gravity = -9.81 * V<dim>::Unit(dim - 1);
+            system.add_obstacle(talus::HalfSpace<dim>{V<dim>::Unit(dim - 1), 0.0});
+            system.add(talus::Ball<dim>{0.1}, 1000.0, {1.1 * V<dim>::Unit(dim - 1), {}});
+            system.add(talus::Ball<dim>{0.5}, 1000.0, {10.0 * V<dim>::Unit(0), {}});
+            return sim;
+        };
+        talus::Simulation<dim> sim = balls();
+        sim.run(0.01);
+        BOOST_TEST((sim.system().shape_list().routines.core == nullptr));
+        const talus::Box<dim> box{V<dim>::Constant(0.5)};
+        const talus::Pose<dim> place{0.5 * V<dim>::Unit(dim - 1), {}};
+        const auto bring = [&](talus::Simulation<dim>& to) {
+            auto& system = to.system();
+            if (way == Way::body || way == Way::restored) system.add(box, 1000.0, place);
+            if (way == Way::obstacle) system.add_obstacle(box, place);
+            if (way == Way::given_inertia)
+                system.add(box, {1.0, talus::AngularVector<dim>::Constant(1.0)}, place);
+            if (way == Way::any) system.add_obstacle(talus::AnyShape<dim>(box), place);
+            if (way == Way::replaced) {
+                system.set_shape(2, box);
+                system.bodies.position[2] = place.position;
+            }
+        };
+        if (way == Way::restored) {
+            talus::Simulation<dim> other = balls();
+            other.run(0.01);
+            bring(other);
+            sim.restore(other.state());
+        } else {
+            bring(sim);
+        }
+        BOOST_TEST((sim.system().shape_list().routines.core != nullptr));
+        sim.run(0.5);
+        BOOST_TEST(sim.system().bodies.position[1][dim - 1] == 1.1,
+                   boost::test_tools::tolerance(1e-3));
+    }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(an_obstacle_that_is_set_free_is_met, D, dimensions) {
     constexpr int Dim = D::value;
     talus::Simulation<Dim> sim(law<Dim>(0.3));

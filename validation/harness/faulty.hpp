@@ -293,8 +293,8 @@ struct FaultyHooks : talus::NoHooks {
             if (fault != Fault::ghost_edge)
                 motion.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }
-        detection.detect(bodies, system.shapes(), system.shapes_version(), system.bounding_radius(),
-                         0.0, reach, motion, tolerance, system.ignored, data.contacts);
+        detection.detect(bodies, system.shape_list(), 0.0, reach, motion, tolerance, system.ignored,
+                         data.contacts);
         data.contacts.keep_if([&](std::size_t c) {
             return data.contacts.gap[c] <= tolerance ||
                    !talus::bounces<Dim>(system.law_of(data.contacts.key[c]));

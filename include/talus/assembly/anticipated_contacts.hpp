@@ -28,8 +28,10 @@ template <int Dim>
 requires SpaceDimension<Dim>
 class AnticipatedContacts {
   public:
-    /// Starts a step; `motion` is that of each body over one step [m, rad].
-    void begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> motion, double tolerance);
+    /// Starts a step; `motion` is that of each body over one step [m, rad], `routines` are those
+    /// for all shapes that come.
+    void begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> motion,
+               const NarrowRoutines<Dim>& routines, double tolerance);
 
     /// Takes `points`, what the narrow phase found for bodies a and b up to the gap `reach` [m].
     /// Pairs come in their order.
@@ -38,9 +40,7 @@ class AnticipatedContacts {
     void add(BodyIndex a, const A& shape_a, BodyIndex b, const B& shape_b, double reach,
              std::span<const ContactPoint<Dim>> points) {
         if (!points.empty())
-            add({a, b, view_of<Dim>(shape_a), view_of<Dim>(shape_b), detail::own_pairs<Dim, A, B>,
-                 detail::support_routine<Dim, A, B>(), reach},
-                points);
+            add({a, b, view_of<Dim>(shape_a), view_of<Dim>(shape_b), reach}, points);
     }
 
     /// Appends the contacts of all pairs, sorted. In the place of those that the motion would close
@@ -54,8 +54,6 @@ class AnticipatedContacts {
     struct Encounter {
         BodyIndex a, b;
         ShapeView<Dim> shape_a, shape_b;
-        std::span<const OwnPair<Dim>> own;
-        SupportRoutine<Dim> by_support;
         double reach;
         std::uint32_t child_a = 0, child_b = 0;
         std::size_t first = 0, count = 0;            ///< contacts at the nearest points
@@ -93,6 +91,7 @@ class AnticipatedContacts {
     MovingShape<Dim> moving(BodyIndex i, const ShapeView<Dim>& shape) const;
 
     const Bodies<Dim>* bodies_ = nullptr;
+    NarrowRoutines<Dim> routines_;
     double tolerance_ = 0.0;
     StoppedMotion<Dim> motion_;
     Column<Encounter> encounters_;
@@ -106,7 +105,7 @@ class AnticipatedContacts {
     requires SpaceDimension<Dim> __VA_ARGS__ AnticipatedContacts<Dim>
 
 TALUS_OF_ANTICIPATED(void)::begin(const Bodies<Dim>& bodies, std::span<const Twist<Dim>> motion,
-                                  double tolerance) {
+                                  const NarrowRoutines<Dim>& routines, double tolerance) {
     constexpr std::size_t usual = 64;  // contacts of one pair
     near_.reserve(usual);
     result_.reserve(usual);
@@ -114,6 +113,7 @@ TALUS_OF_ANTICIPATED(void)::begin(const Bodies<Dim>& bodies, std::span<const Twi
     disputed_.reserve(usual);
     found_.reserve(4 * usual);
     bodies_ = &bodies;
+    routines_ = routines;
     tolerance_ = tolerance;
     motion_.begin(bodies, motion);
     encounters_.clear();
@@ -133,7 +133,8 @@ TALUS_OF_ANTICIPATED(void)::add(const Encounter& pair, std::span<const ContactPo
         return (own.a == pair.shape_a.access && own.b == pair.shape_b.access) ||
                (own.a == pair.shape_b.access && own.b == pair.shape_a.access);
     };
-    const bool whole = !compound || std::any_of(pair.own.begin(), pair.own.end(), is_theirs);
+    const bool whole =
+        !compound || std::any_of(routines_.own.begin(), routines_.own.end(), is_theirs);
     if (whole) {
         add_parts(pair, points);
         return;
@@ -204,8 +205,8 @@ TALUS_OF_ANTICIPATED(bool)::turns_around(const Encounter& e) const {
 TALUS_OF_ANTICIPATED(void)::judge(Encounter& e) {
     result_.clear();
     const MovingShape<Dim> a = moving(e.a, e.shape_a), b = moving(e.b, e.shape_b);
-    e.meeting = Passage<Dim>(a, b, e.own, e.by_support, tolerance_, e.reach, near_)
-                    .append(nearest_of(e), result_);
+    e.meeting =
+        Passage<Dim>(a, b, routines_, tolerance_, e.reach, near_).append(nearest_of(e), result_);
     if (!e.meeting.disputed) return;
     for (ContactPoint<Dim>& c : result_) {
         c.feature = with_child_of_a(c.feature, e.child_a);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/assembly/anticipated_contacts.hpp>
+#include <talus/assembly/shape_list.hpp>
 #include <talus/collision/concepts.hpp>
 #include <talus/collision/contact_set.hpp>
 #include <talus/collision/narrow_phase.hpp>
@@ -23,27 +24,26 @@ template <int Dim, class ShapeType, BroadPhase<Dim> Broad>
 requires SpaceDimension<Dim> && CanMeet<ShapeType, ShapeType, Dim>
 class ContactDetection {
   public:
-    /// Finds every contact with gap <= reach[a] + reach[b]. `radius[i]` bounds body i about its
-    /// centre, infinite for unbounded shapes; `skin` is the widening of new boxes: a larger one
-    /// gives more candidates, kept for longer. All in [m]. `version` is another number whenever
-    /// some shape is another. If `motion` is given, of each body over one step [m, rad], contacts
-    /// are those that it leads to (anticipated_contacts.hpp), where that differs; of bodies that
-    /// touch, gap <= `tolerance`, only if they slide past that side. Bodies whose groups do not
-    /// meet, and pairs `ignored`, have no contacts. Throws input_error naming a pair of the broad
-    /// phase that is none.
-    void detect(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, std::uint64_t version,
-                std::span<const double> radius, double skin, std::span<const double> reach,
-                std::span<const Twist<Dim>> motion, double tolerance, const IgnoredPairs& ignored,
-                ContactSet<Dim>& contacts) {
-        if (!found_ || version != version_ || left_a_box(bodies, radius, reach)) {
+    /// Finds every contact with gap <= reach[a] + reach[b]. `skin` is the widening of new boxes: a
+    /// larger one gives more candidates, kept for longer. All in [m]. If `motion` is given, of each
+    /// body over one step [m, rad], contacts are those that it leads to (anticipated_contacts.hpp),
+    /// where that differs; of bodies that touch, gap <= `tolerance`, only if they slide past that
+    /// side. Bodies whose groups do not meet, and pairs `ignored`, have no contacts. Throws
+    /// input_error naming a pair of the broad phase that is none.
+    void detect(const Bodies<Dim>& bodies, const ShapeList<Dim, ShapeType>& list, double skin,
+                std::span<const double> reach, std::span<const Twist<Dim>> motion, double tolerance,
+                const IgnoredPairs& ignored, ContactSet<Dim>& contacts) {
+        const std::span<const ShapeType> shapes = list.shapes;
+        if (!found_ || list.version != version_ ||
+            left_a_box(bodies, list.bounding_radius, reach)) {
             found_ = false;  // so that a failure on the way leaves nothing that looks found
             find_candidates(bodies, shapes, skin, reach);
-            version_ = version;
+            version_ = list.version;
             found_ = true;
         }
         contacts.clear();
         contacts.body = bodies.id;
-        if (!motion.empty()) anticipated_.begin(bodies, motion, tolerance);
+        if (!motion.empty()) anticipated_.begin(bodies, motion, list.routines, tolerance);
         for (const CandidatePair& pair : candidates_) {
             const auto a = static_cast<std::size_t>(pair.a);
             const auto b = static_cast<std::size_t>(pair.b);
@@ -52,7 +52,7 @@ class ContactDetection {
             points_.clear();
             try {
                 contact_points<Dim>(shapes[a], bodies.pose(a), shapes[b], bodies.pose(b),
-                                    reach[a] + reach[b], points_);
+                                    reach[a] + reach[b], points_, list.routines);
             } catch (const input_error& error) {
                 throw input_error(detail::numbered("bodies", a, detail::numbered(" and", b)) +
                                   ": " + error.what());

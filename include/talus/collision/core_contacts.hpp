@@ -5,6 +5,7 @@
 #include <talus/collision/face_contacts.hpp>
 #include <talus/collision/gjk.hpp>
 #include <talus/core/column.hpp>
+#include <talus/core/instantiate.hpp>
 
 namespace talus {
 
@@ -104,3 +105,11 @@ void append_core_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a, const
 }
 
 }  // namespace talus
+
+#define TALUS_CORE_CONTACTS(Dim)                                                                \
+    void talus::append_core_contacts<Dim>(const talus::CoreView<Dim>&, const talus::Pose<Dim>&, \
+                                          const talus::CoreView<Dim>&, const talus::Pose<Dim>&, \
+                                          double, talus::Column<talus::ContactPoint<Dim>>&)
+TALUS_IN_PLANE(TALUS_CORE_CONTACTS(2))
+TALUS_IN_SPACE(TALUS_CORE_CONTACTS(3))
+#undef TALUS_CORE_CONTACTS

@@ -3,9 +3,7 @@
 
 #include <talus/collision/ball_contacts.hpp>
 #include <talus/collision/contact_point.hpp>
-#include <talus/collision/core_contacts.hpp>
-#include <talus/collision/own_pairs.hpp>
-#include <talus/collision/support_contacts.hpp>
+#include <talus/collision/narrow_routines.hpp>
 #include <talus/collision/wall_contacts.hpp>
 #include <talus/core/check.hpp>
 #include <talus/core/column.hpp>
@@ -19,24 +17,16 @@
 
 namespace talus {
 
-/// append_support_contact, or null: it is the largest routine and few programs need it, so that
-/// calling it through a pointer spares the others from compiling it.
-template <int Dim>
-using SupportRoutine = void (*)(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
-                                const ShapeView<Dim>& b, const Pose<Dim>& pose_b, double margin,
-                                Column<ContactPoint<Dim>>& out);
-
 /// The narrow phase for one pair of body shapes. It knows shapes by their views alone, so that it
 /// is compiled once for each dimension, whatever the number of shape types.
 template <int Dim>
 requires SpaceDimension<Dim>
 class NarrowPhase {
   public:
-    /// Contacts with a gap up to `margin` [m] go to `out`; `own` are the routines of one's own for
-    /// these shapes, which go first; `by_support` is null where no shape needs it.
-    NarrowPhase(double margin, std::span<const OwnPair<Dim>> own, SupportRoutine<Dim> by_support,
-                Column<ContactPoint<Dim>>& out)
-        : margin_(margin), own_(own), by_support_(by_support), out_(out) {}
+    /// Contacts with a gap up to `margin` [m] go to `out`; `routines` are those for all shapes that
+    /// come.
+    NarrowPhase(double margin, const NarrowRoutines<Dim>& routines, Column<ContactPoint<Dim>>& out)
+        : margin_(margin), routines_(routines), out_(out) {}
 
     void append(const ShapeView<Dim>& a, const Pose<Dim>& pose_a, const ShapeView<Dim>& b,
                 const Pose<Dim>& pose_b) const;
@@ -61,8 +51,7 @@ class NarrowPhase {
                            const Aabb<Dim>& box, const Visit& visit) const;
 
     double margin_;
-    std::span<const OwnPair<Dim>> own_;
-    SupportRoutine<Dim> by_support_;
+    const NarrowRoutines<Dim>& routines_;
     Column<ContactPoint<Dim>>& out_;
 };
 
@@ -71,7 +60,7 @@ requires SpaceDimension<Dim>
 void NarrowPhase<Dim>::append(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                               const ShapeView<Dim>& b, const Pose<Dim>& pose_b) const {
     const ShapeKind kind_a = a.kind(), kind_b = b.kind();
-    if (!own_.empty() && append_own(a, pose_a, b, pose_b)) return;
+    if (!routines_.own.empty() && append_own(a, pose_a, b, pose_b)) return;
     if (kind_a == ShapeKind::ball && kind_b == ShapeKind::ball) {
         append_ball_contact<Dim>(a.template as<Ball<Dim>>(), pose_a, b.template as<Ball<Dim>>(),
                                  pose_b, margin_, out_);
@@ -91,10 +80,12 @@ void NarrowPhase<Dim>::append(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
         append_hole_contacts<Dim>(a.core(), pose_a, b.template as<RoundHole<Dim>>(), pose_b,
                                   margin_, out_);
     } else if (a.has_core() && b.has_core()) {
-        append_core_contacts<Dim>(a.core(), pose_a, b.core(), pose_b, margin_, out_);
+        TALUS_CHECK(routines_.core != nullptr, "shapes with faces or edges come with a routine");
+        routines_.core(a.core(), pose_a, b.core(), pose_b, margin_, out_);
     } else {
-        TALUS_CHECK(by_support_ != nullptr, "shapes of support mapping alone come with a routine");
-        by_support_(a, pose_a, b, pose_b, margin_, out_);
+        TALUS_CHECK(routines_.support != nullptr,
+                    "shapes of support mapping alone come with a routine");
+        routines_.support(a, pose_a, b, pose_b, margin_, out_);
     }
 }
 
@@ -102,12 +93,12 @@ template <int Dim>
 requires SpaceDimension<Dim>
 bool NarrowPhase<Dim>::append_own(const ShapeView<Dim>& a, const Pose<Dim>& pose_a,
                                   const ShapeView<Dim>& b, const Pose<Dim>& pose_b) const {
-    for (const OwnPair<Dim>& pair : own_)
+    for (const OwnPair<Dim>& pair : routines_.own)
         if (pair.a == a.access && pair.b == b.access) {
             pair.append(a.shape, pose_a, b.shape, pose_b, margin_, out_);
             return true;
         }
-    for (const OwnPair<Dim>& pair : own_)
+    for (const OwnPair<Dim>& pair : routines_.own)
         if (pair.a == b.access && pair.b == a.access) {
             append_mirrored(a, pose_a, b, pose_b);
             return true;
@@ -180,14 +171,6 @@ const Ball<Dim>* as_ball(const AnyShapeOf<Dim, Shapes...>& shape) {
         return nullptr;
 }
 
-template <int Dim, class A, class B>
-constexpr SupportRoutine<Dim> support_routine() {
-    if constexpr (need_support<Dim, A, B>)
-        return &append_support_contact<Dim>;
-    else
-        return nullptr;
-}
-
 }  // namespace detail
 
 /// Appends to `out` every contact point of two placed shapes whose gap is at most `margin` [m];
@@ -195,11 +178,13 @@ constexpr SupportRoutine<Dim> support_routine() {
 /// exchanging the shapes gives the mirrored contacts (of shapes known by their support alone, where
 /// two ways out are as short, maybe those of the other way). Two walls (half-spaces, round holes)
 /// have no contacts.
-/// `out` keeps its capacity between calls, and nothing else is allocated.
+/// `out` keeps its capacity between calls, and nothing else is allocated. `routines` of fewer types
+/// will do where `a` and `b` are known to hold no others.
 template <int Dim, class A, class B>
 requires CanMeet<A, B, Dim>
 void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<Dim>& pose_b,
-                    double margin, Column<ContactPoint<Dim>>& out) {
+                    double margin, Column<ContactPoint<Dim>>& out,
+                    const NarrowRoutines<Dim>& routines = narrow_routines<Dim, A, B>) {
     TALUS_CHECK(std::isfinite(margin), "the margin of a contact query is finite");
     TALUS_CHECK(pose_a.position.allFinite() && pose_b.position.allFinite(),
                 "the poses of a contact query are finite");
@@ -209,8 +194,7 @@ void contact_points(const A& a, const Pose<Dim>& pose_a, const B& b, const Pose<
         if (ball_a && ball_b)
             return append_ball_contact<Dim>(*ball_a, pose_a, *ball_b, pose_b, margin, out);
     }
-    NarrowPhase<Dim>(margin, detail::own_pairs<Dim, A, B>, detail::support_routine<Dim, A, B>(),
-                     out)
+    NarrowPhase<Dim>(margin, routines, out)
         .append(view_of<Dim>(a), pose_a, view_of<Dim>(b), pose_b);
 }
 

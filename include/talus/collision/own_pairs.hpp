@@ -113,14 +113,16 @@ constexpr auto make_own_pairs() {
 template <int Dim, class A, class B>
 inline constexpr auto own_pairs = make_own_pairs<Dim, A, B>();
 
-/// Whether an A or a B may hold a shape that has nothing better than its support mapping.
+/// Whether an A or a B is or may hold a shape of that kind.
 template <int Dim, class... S>
-constexpr bool some_convex(TypeList<S...>) {
-    return ((kind_of<S, Dim> == ShapeKind::convex) || ...);
+constexpr bool any_is(ShapeKind kind, TypeList<S...>) {
+    return ((kind_of<S, Dim> == kind) || ...);
 }
 template <int Dim, class A, class B>
-inline constexpr bool need_support =
-    some_convex<Dim>(typename Parts<A>::type{}) || some_convex<Dim>(typename Parts<B>::type{});
+constexpr bool may_hold(ShapeKind kind) {
+    return any_is<Dim>(kind, typename Parts<A>::type{}) ||
+           any_is<Dim>(kind, typename Parts<B>::type{});
+}
 
 /// A type of shape that cannot be met; void if there is none.
 template <class S>

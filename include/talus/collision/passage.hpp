@@ -92,8 +92,8 @@ requires SpaceDimension<Dim>
 class Passage {
   public:
     /// `near` has room for the contacts of one pair; `reach` [m] bounds what the two travel.
-    Passage(const MovingShape<Dim>& a, const MovingShape<Dim>& b, std::span<const OwnPair<Dim>> own,
-            SupportRoutine<Dim> by_support, double tolerance, double reach,
+    Passage(const MovingShape<Dim>& a, const MovingShape<Dim>& b,
+            const NarrowRoutines<Dim>& routines, double tolerance, double reach,
             Column<ContactPoint<Dim>>& near);
 
     /// Appends to `out` the contacts to keep in place of those at the nearest points, `present`:
@@ -142,8 +142,7 @@ class Passage {
 
     const MovingShape<Dim>&a_, &b_;
     CoreView<Dim> core_a_, core_b_;
-    std::span<const OwnPair<Dim>> own_;
-    SupportRoutine<Dim> by_support_;
+    const NarrowRoutines<Dim>& routines_;
     double tolerance_, reach_, size_;
     double most_slack_;  ///< [m]
     bool turning_;
@@ -162,14 +161,13 @@ class Passage {
     requires SpaceDimension<Dim> __VA_ARGS__ Passage<Dim>
 
 TALUS_OF_PASSAGE()::Passage(const MovingShape<Dim>& a, const MovingShape<Dim>& b,
-                            std::span<const OwnPair<Dim>> own, SupportRoutine<Dim> by_support,
-                            double tolerance, double reach, Column<ContactPoint<Dim>>& near)
+                            const NarrowRoutines<Dim>& routines, double tolerance, double reach,
+                            Column<ContactPoint<Dim>>& near)
     : a_(a),
       b_(b),
       core_a_(core_of(a.shape)),
       core_b_(core_of(b.shape)),
-      own_(own),
-      by_support_(by_support),
+      routines_(routines),
       tolerance_(tolerance),
       reach_(reach),
       size_(std::min(core_a_.bound, core_b_.bound)),
@@ -234,8 +232,7 @@ TALUS_OF_PASSAGE(const ContactPoint<Dim>*)::look(double steps, const Vector<Dim>
     a.position += shift;
     // Apart by the reach at most now, and going as far in each step.
     const double margin = (1.0 + Foresight::steps) * reach_ + 2.0 * Foresight::slack * size_;
-    NarrowPhase<Dim>(margin, own_, by_support_, near_)
-        .append(a_.shape, a, b_.shape, b_.pose_after(steps));
+    NarrowPhase<Dim>(margin, routines_, near_).append(a_.shape, a, b_.shape, b_.pose_after(steps));
     if (near_.empty()) return nullptr;
     return &*nearest_of(near_);
 }
@@ -254,10 +251,11 @@ TALUS_OF_PASSAGE(void)::find_faces(const MovingShape<Dim>& m, const CoreView<Dim
     const Vector<Dim> nearest = m.pose.rotation.transpose_times(nearest_);
     const Vector<Dim> first = of_other(present.front());
     for (std::size_t f = 0; f < core.face_count(); ++f) {
-        if (!try_face(f, first) && own_.empty()) continue;
+        if (!try_face(f, first) && routines_.own.empty()) continue;
         if (sign * core.normals[f].dot(nearest) > 1.0 - 1e-12) continue;
         const auto beyond = [&](const ContactPoint<Dim>& c) { return try_face(f, of_other(c)); };
-        if (own_.empty() && !std::all_of(present.begin() + 1, present.end(), beyond)) continue;
+        if (routines_.own.empty() && !std::all_of(present.begin() + 1, present.end(), beyond))
+            continue;
         const Axis axis = measured(Vector<Dim>(sign * (m.pose.rotation * core.normals[f])));
         others_ |= axis.qualifies();
         if (better(axis, best_other_)) best_other_ = axis;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/assembly/shape_list.hpp>
 #include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
 #include <talus/core/room.hpp>
@@ -27,24 +28,29 @@ class BodyShapes {
     /// Of each shape at its thinnest part; of what has none the bounding radius [m].
     std::span<const double> half_thickness() const { return half_thickness_; }
     std::size_t count() const { return shapes_.size(); }
-    /// Another one whenever some shape is another; unlike any given before in this program, as
-    /// shapes may be replaced by others. Copies share it.
-    std::uint64_t version() const { return version_; }
+    /// Its version is unlike any given before in this program, as shapes may be replaced by others.
+    /// Copies share it.
+    ShapeList<Dim, ShapeType> list() const {
+        return {shapes_, bounding_radius_, version_, routines_};
+    }
 
-    void push_back(ShapeType shape) {
+    /// `needs`: the routines for all shapes that this one may be.
+    void push_back(ShapeType shape, const NarrowRoutines<Dim>& needs) {
         const double radius = radius_of(shape), thickness = thickness_of(shape, radius);
         detail::make_room(bounding_radius_, count() + 1);
         detail::make_room(half_thickness_, count() + 1);
         shapes_.push_back(std::move(shape));
         bounding_radius_.push_back(radius);
         half_thickness_.push_back(thickness);
+        routines_.add(needs);
         version_ = new_version();
     }
-    void replace(std::size_t body, ShapeType shape) {
+    void replace(std::size_t body, ShapeType shape, const NarrowRoutines<Dim>& needs) {
         const double radius = radius_of(shape), thickness = thickness_of(shape, radius);
         shapes_[body] = std::move(shape);
         bounding_radius_[body] = radius;
         half_thickness_[body] = thickness;
+        routines_.add(needs);
         version_ = new_version();
     }
     /// Keeps those whose new index `to` is not negative, in their order.
@@ -82,6 +88,8 @@ class BodyShapes {
     Column<ShapeType> shapes_;
     Column<double> bounding_radius_, half_thickness_;
     std::uint64_t version_ = 0;
+    // Of the shapes that were given, not of all that a ShapeType may be.
+    NarrowRoutines<Dim> routines_{.own = detail::own_pairs<Dim, ShapeType, ShapeType>};
 };
 
 }  // namespace talus

@@ -245,9 +245,9 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
                         (turn > 0.0 && std::isfinite(radius) ? turn * radius : 0.0);
         }
     }
-    detection_.detect(system.bodies, system.shapes(), system.shapes_version(),
-                      system.bounding_radius(), params.skin * system.mean_bounding_radius(), reach_,
-                      motion_, touching, system.ignored, data.contacts);
+    detection_.detect(system.bodies, system.shape_list(),
+                      params.skin * system.mean_bounding_radius(), reach_, motion_, touching,
+                      system.ignored, data.contacts);
     data.contacts.keep_if([&](std::size_t c) {
         const ContactKey& key = data.contacts.key[c];
         if (!can_part(data.contacts, c, system.bodies) && !holds_any_pull<Dim>(system.law_of(key)))

@@ -65,7 +65,7 @@ struct System {
         const auto principal = in_principal_frame<Dim>(shape);
         const Inertia<Dim> inertia{density * principal.volume, density * principal.frame.moments};
         return attach(bodies.add(inertia, pose * principal.frame.pose, twist, material),
-                      principal.shape);
+                      principal.shape, narrow_routines<Dim, S>);
     }
 
     /// Adds a body of the given inertia, whose shape is given in its principal frame.
@@ -74,7 +74,7 @@ struct System {
                   const Twist<Dim>& twist = {}, MaterialIndex material = 0) {
         require_between_steps();
         check_material(material);
-        return attach(bodies.add(inertia, pose, twist, material), shape);
+        return attach(bodies.add(inertia, pose, twist, material), shape, narrow_routines<Dim, S>);
     }
 
     /// Adds an obstacle that moves as prescribed, where it is at `time()`; a pose in place of a
@@ -85,7 +85,8 @@ struct System {
         require_between_steps();
         check_material(material);
         const BodyIndex body =
-            attach(bodies.add_obstacle(motion.pose(time_), motion.twist(time_), material), shape);
+            attach(bodies.add_obstacle(motion.pose(time_), motion.twist(time_), material), shape,
+                   narrow_routines<Dim, S>);
         obstacles.push_back({body, std::move(motion)});
         placed_.push_back(placed_state(body));
         return body;
@@ -125,10 +126,11 @@ struct System {
             detail::reject("body", body,
                            detail::numbered("an index from 0 below", shapes_.count(),
                                             ", the number of bodies with shapes"));
-        shapes_.replace(static_cast<std::size_t>(body), ShapeType(shape));
+        shapes_.replace(static_cast<std::size_t>(body), ShapeType(shape), narrow_routines<Dim, S>);
     }
-    /// Another number whenever some shape is another; copies of a system share it.
-    std::uint64_t shapes_version() const { return shapes_.version(); }
+    /// All of that, as contact detection takes it, with a number that is another one whenever some
+    /// shape is another; copies of a system share it.
+    ShapeList<Dim, ShapeType> shape_list() const { return shapes_.list(); }
 
     /// Puts all obstacles where they are at time t [s]. With `reach` [s] it checks that poses and
     /// twists belong together, see `place`.
@@ -164,7 +166,7 @@ struct System {
 
   private:
     void check_material(MaterialIndex material) const;
-    BodyIndex attach(BodyIndex body, ShapeType shape);
+    BodyIndex attach(BodyIndex body, ShapeType shape, const NarrowRoutines<Dim>& needs);
     void move_up(const Column<BodyIndex>& to);
 
     /// Of this system alone: a copy, taken within a step, is in none.
@@ -332,10 +334,10 @@ void System<Dim, Law, ShapeType>::check_material(MaterialIndex material) const {
 }
 
 template <int Dim, class Law, class ShapeType>
-requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(BodyIndex body,
-                                                                           ShapeType shape) {
+requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(
+    BodyIndex body, ShapeType shape, const NarrowRoutines<Dim>& needs) {
     try {
-        shapes_.push_back(std::move(shape));
+        shapes_.push_back(std::move(shape), needs);
     } catch (...) {
         bodies.keep_if([&](std::size_t i) { return i != static_cast<std::size_t>(body); });
         throw;
@@ -383,7 +385,8 @@ void System<Dim, Law, ShapeType>::restore(const RunState<Dim, ShapeType>& state)
         require_in("body of an obstacle", obstacle.body, 0.0, static_cast<double>(n) - 1.0);
     System other(laws);
     other.bodies = state.bodies;
-    for (const ShapeType& shape : state.shapes) other.shapes_.push_back(shape);
+    for (const ShapeType& shape : state.shapes)
+        other.shapes_.push_back(shape, narrow_routines<Dim, ShapeType>);
     other.obstacles = state.obstacles;
     other.ignored = state.ignored;
     for (const Obstacle& obstacle : other.obstacles)
