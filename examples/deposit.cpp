@@ -109,6 +109,7 @@ int rain(const lab::Command& command, const Options& o) {
         study.print();
     }
     study.write(command.out());
+    lab::write_findings(command.out(), study.findings());
     lab::PictureParams look;
     look.title = "Grains that have rained";
     look.window = bins.window();
