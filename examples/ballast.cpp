@@ -22,6 +22,7 @@
 #include "lab/run.hpp"
 #include "lab/samples/grains.hpp"
 #include "lab/samples/pour.hpp"
+#include "lab/table.hpp"
 
 namespace {
 

@@ -27,6 +27,7 @@
 #include "lab/run.hpp"
 #include "lab/samples/grains.hpp"
 #include "lab/samples/incline.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -93,9 +94,8 @@ int build(const lab::Command& command, const Options& o) {
         }))
         return run.exit_code();
 
-    std::printf("%lld grains came, %lld fell off; %zu avalanches of %g degrees or more\n",
-                static_cast<long long>(inlet.count()), static_cast<long long>(sink.count()),
-                turns.valleys().size(), o.amplitude);
+    std::printf("%lld grains came, %lld fell off\n", static_cast<long long>(inlet.count()),
+                static_cast<long long>(sink.count()));
     turns.print_avalanches();
     std::vector<lab::Finding> findings = turns.findings();
     const lab::SurfaceLine bank = surface();

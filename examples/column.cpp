@@ -21,6 +21,7 @@
 #include "lab/samples/fill.hpp"
 #include "lab/samples/rough_floor.hpp"
 #include "lab/samples/vessel.hpp"
+#include "lab/table.hpp"
 
 namespace {
 

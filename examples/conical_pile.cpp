@@ -25,6 +25,7 @@
 #include "lab/run.hpp"
 #include "lab/samples/pour.hpp"
 #include "lab/samples/rough_floor.hpp"
+#include "lab/table.hpp"
 
 namespace {
 

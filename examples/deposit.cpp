@@ -24,6 +24,7 @@
 #include "lab/run.hpp"
 #include "lab/samples/bins.hpp"
 #include "lab/samples/grains.hpp"
+#include "lab/table.hpp"
 
 namespace {
 

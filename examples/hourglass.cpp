@@ -24,6 +24,7 @@
 #include "lab/samples/fill.hpp"
 #include "lab/samples/flow.hpp"
 #include "lab/samples/vessel.hpp"
+#include "lab/table.hpp"
 
 namespace {
 

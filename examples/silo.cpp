@@ -19,6 +19,7 @@
 #include "lab/samples/move_on.hpp"
 #include "lab/samples/pour.hpp"
 #include "lab/samples/vessel.hpp"
+#include "lab/table.hpp"
 
 namespace {
 

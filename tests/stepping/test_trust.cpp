@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_that_comes_late_brings_its_routines, D, di
             return sim;
         };
         talus::Simulation<dim> sim = balls();
-        sim.run(0.01);
+        BOOST_TEST(sim.run(0.01).certified());
         BOOST_TEST((sim.system().shape_list().routines.core == nullptr));
         const talus::Box<dim> box{V<dim>::Constant(0.5)};
         const talus::Pose<dim> place{0.5 * V<dim>::Unit(dim - 1), {}};
@@ -174,14 +174,14 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_that_comes_late_brings_its_routines, D, di
         };
         if (way == Way::restored) {
             talus::Simulation<dim> other = balls();
-            other.run(0.01);
+            BOOST_TEST(other.run(0.01).certified());
             bring(other);
             sim.restore(other.state());
         } else {
             bring(sim);
         }
         BOOST_TEST((sim.system().shape_list().routines.core != nullptr));
-        sim.run(0.5);
+        BOOST_TEST(sim.run(0.5).certified());
         BOOST_TEST(sim.system().bodies.position[1][dim - 1] == 1.1,
                    boost::test_tools::tolerance(1e-3));
     }

@@ -42,7 +42,7 @@ class Networks {
             const V& r = data.impulse[c];
             const int strong = r[0] < mean ? 0 : 1;
             const V force = V(jacobian.frame[c].transpose() * r);
-            const V branch = jacobian.arm_b[c] - jacobian.arm_a[c];
+            const V branch = jacobian.arm_a[c] - jacobian.arm_b[c];
             const V& n = data.contacts.normal[c];
             stress[strong] += branch * force.transpose();
             fabric[strong] += n * n.transpose();

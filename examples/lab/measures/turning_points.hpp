@@ -48,8 +48,10 @@ class TurningPoints {
     /// Angles of a surface [degrees]: it falls in avalanches from the limit angle to that of
     /// repose.
     void print_avalanches() const {
-        std::printf("angle of repose %.1f, limit angle %.1f degrees (the paper: some 25 and 29)\n",
-                    mean_of(valleys()), mean_of(peaks()));
+        std::printf(
+            "%zu avalanches of %g degrees or more: angle of repose %.1f, limit angle %.1f degrees "
+            "(the\n    paper: some 25 and 29)\n",
+            valleys().size(), amplitude_, mean_of(valleys()), mean_of(peaks()));
     }
     std::vector<Finding> findings() const {
         const double repose = mean_of(valleys());
