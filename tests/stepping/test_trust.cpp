@@ -152,7 +152,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_that_comes_late_brings_its_routines, D, di
             system.gravity = -9.81 * V<dim>::Unit(dim - 1);
             system.add_obstacle(talus::HalfSpace<dim>{V<dim>::Unit(dim - 1), 0.0});
             system.add(talus::Ball<dim>{0.1}, 1000.0, {1.1 * V<dim>::Unit(dim - 1), {}});
-            system.add(talus::Ball<dim>{0.5}, 1000.0, {10.0 * V<dim>::Unit(0), {}});
+            system.add(talus::Ball<dim>{0.5}, 1000.0,
+                       {V<dim>(10.0 * V<dim>::Unit(0) + 0.5 * V<dim>::Unit(dim - 1)), {}});
             return sim;
         };
         talus::Simulation<dim> sim = balls();
