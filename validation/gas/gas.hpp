@@ -39,6 +39,26 @@ struct Gas {
                std::sqrt(temperature);
     }
 
+    // A collision is seen in the middle of the step in which bodies have met, when they have gone
+    // on by half a step on the average: balls are met at a smaller distance, walls farther out.
+    // Mean normal speeds of what meets, at temperature 1: of two balls √π, of a ball and a wall
+    // √(π/2).
+    double met_at() const { return 1 - 0.5 * h() * std::sqrt(pi); }  ///< distance of centres [m]
+    double free_length() const {
+        return length() - 1 + h() * std::sqrt(0.5 * pi);
+    }  ///< of them [m]
+
+    /// Balls per volume that centres can reach, away from the walls. At a wall they are denser,
+    /// since a part of what others would exclude is beyond it: by n times that part, to second
+    /// order in n, whose integral over the distance is 2/3 in the plane and pi/4 in space.
+    double bulk_density() const {
+        const double free = free_length(), surplus = Dim == 2 ? 2.0 / 3 : pi / 4;
+        const double mean = count() / std::pow(free, Dim);
+        double n = mean;
+        for (int k = 0; k < 50; ++k) n = mean / (1 + 2 * Dim * surplus * n / free);
+        return n;
+    }
+
     World<Dim> make(Trial<Dim>& trial, std::uint64_t realisation) const {
         talus::MaterialTable<Law<Dim>> laws(2, law<Dim>(0.0, 1.0));
         laws.set(0, 0, law<Dim>(0.0, restitution));
