@@ -22,6 +22,7 @@
 #include "lab/run.hpp"
 #include "lab/samples/grains.hpp"
 #include "lab/samples/pour.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -100,6 +101,9 @@ int pass(const lab::Command& command, const Options& o) {
                 measured.ground / weight, measured.ground / measured.pressing);
     std::printf("Gini coefficient of the loads of grains: %.3f (G22: above 0.3)\n", measured.gini);
     lab::write_passage(command.out(), track, passage.values, o.step);
+    lab::write_findings(command.out(), {{"force on the ground", "what presses",
+                                         measured.ground / measured.pressing},
+                                        {"gini coefficient of the loads", "-", measured.gini}});
 
     const double edge = track.places().back() + 0.5 * o.track.spacing;
     const double high = track.heights(system.bodies).front() + 0.2;

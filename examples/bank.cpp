@@ -27,6 +27,7 @@
 #include "lab/run.hpp"
 #include "lab/samples/grains.hpp"
 #include "lab/samples/incline.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -93,12 +94,10 @@ int build(const lab::Command& command, const Options& o) {
         }))
         return run.exit_code();
 
-    std::printf("%lld grains came, %lld fell off; %zu avalanches of %g degrees or more\n",
-                static_cast<long long>(inlet.count()), static_cast<long long>(sink.count()),
-                turns.valleys().size(), o.amplitude);
-    if (!turns.valleys().empty() && !turns.peaks().empty())
-        std::printf("angle of repose %.1f, limit angle %.1f degrees (the paper: some 25 and 29)\n",
-                    lab::average_of(turns.valleys()).mean(), lab::average_of(turns.peaks()).mean());
+    std::printf("%lld grains came, %lld fell off\n", static_cast<long long>(inlet.count()),
+                static_cast<long long>(sink.count()));
+    turns.print_avalanches();
+    std::vector<lab::Finding> findings = turns.findings();
     const lab::SurfaceLine bank = surface();
     lab::PictureParams look;
     look.title = "A bank made by avalanches";
@@ -111,12 +110,18 @@ int build(const lab::Command& command, const Options& o) {
         const V along = lab::force_across(sim, bank, from, to, depth, false);
         const V upright = lab::force_across(sim, bank, from, to, depth, true);
         std::printf("at rest the surface leans by %.1f degrees\n", degrees(bank.angle()));
-        std::printf("force across cuts along the surface: %.1f degrees from the vertical (0)\n",
-                    degrees(std::atan2(along[0], -along[1])));
-        std::printf("force across upright cuts: %.1f degrees from the surface (0)\n",
-                    degrees(std::atan2(-upright[1], -upright[0]) - bank.angle()));
+        const double from_vertical = degrees(std::atan2(along[0], -along[1]));
+        const double from_surface = degrees(std::atan2(-upright[1], -upright[0]) - bank.angle());
+        std::printf(
+            "force across cuts along the surface: %.1f degrees from the vertical (0), across "
+            "upright cuts %.1f\n    degrees from the surface (0)\n",
+            from_vertical, from_surface);
+        findings.push_back(
+            {"force across cuts along the surface from the vertical", "degrees", from_vertical});
+        findings.push_back({"force across upright cuts from the surface", "degrees", from_surface});
         look.lines = lab::drawn_cuts(bank, from, to, depth);
     }
+    lab::write_findings(command.out(), findings);
     lab::write_picture<2>(command.out() / "bank.svg", sim, look);
     return run.finish();
 }

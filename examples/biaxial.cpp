@@ -16,6 +16,7 @@
 #include <numbers>
 
 #include "lab/command.hpp"
+#include "lab/measures/networks.hpp"
 #include "lab/measures/probe.hpp"
 #include "lab/plot.hpp"
 #include "lab/run.hpp"
@@ -86,7 +87,14 @@ int squeeze(const lab::Command& command, const Options& o) {
     std::printf("largest stress ratio %.2f: friction angle %.1f degrees, of the grains %.1f\n",
                 hardest.value, degrees(std::asin((hardest.value - 1.0) / (hardest.value + 1.0))),
                 degrees(std::atan(o.mu)));
+    const lab::Networks<Dim> networks(sim, box.grains(), o.mu);
+    networks.print();
     cuts.write(command.out(), o.pressure);
+    std::vector<lab::Finding> findings = networks.findings();
+    findings.push_back({"rms deviation of cuts", "mean pressure", cuts.deviation()});
+    findings.push_back({"mean normal stress of cuts", "that of the tensor", cuts.mean()});
+    findings.push_back({"largest stress ratio", "-", hardest.value});
+    lab::write_findings(command.out(), findings);
     lab::PictureParams look;
     look.title = "Biaxial test: a region that was probed, and its principal stresses";
     look.unit = o.pressure * std::pow(2.0 * o.radius, Dim - 1);

@@ -21,6 +21,7 @@
 #include "lab/samples/fill.hpp"
 #include "lab/samples/rough_floor.hpp"
 #include "lab/samples/vessel.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -114,6 +115,12 @@ int collapse_all(const lab::Command& command, const Options& o) {
     std::printf("%s\n", to_string(summary).c_str());
 
     all.write(command.out());
+    lab::write_findings(
+        command.out(),
+        {{"exponent of the run-out of wide columns", "-", all.exponent(0.0, 1.15 * bend)},
+         {"exponent of the run-out of tall columns", "-", all.exponent(0.85 * bend, 1e9)},
+         {"time to spread", "free fall", std::ranges::max(all.time)},
+         {"shortest time to spread", "free fall", std::ranges::min(all.time)}});
     return summary.certified() ? lab::certified : lab::not_certified;
 }
 

@@ -9,8 +9,6 @@
 // Sample runs:  examples/run compression
 //               examples/run compression --count 300 --mu 0.3
 //               examples/run compression --full
-#include <talus/measure/rings.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,17 +16,18 @@
 #include <vector>
 
 #include "lab/command.hpp"
+#include "lab/measures/packing_study.hpp"
 #include "lab/picture.hpp"
 #include "lab/run.hpp"
 #include "lab/samples/packing.hpp"
 #include "lab/samples/press.hpp"
-#include "lab/table.hpp"
 
 namespace {
 
 struct Options {
     double count = 300, radius = 0.005, ratio = 1.4, mu = 0.5, pressure = 1e4, press = 1.0,
-           rest = 0.2, step = 5e-4, fine = 1e-7;
+           rest = 0.2, step = 5e-4, fine = 1e-7, dim = 0;
+    std::vector<double> sizes{2.25, 1.5, 1.0};  ///< over that of the finest grains
 };
 
 /// Presses grains `size` times as large as the finest into a box; false if the user stopped it.
@@ -84,25 +83,15 @@ bool compress(const lab::Command& command, const Options& o, double mu, double s
 
 template <int Dim>
 bool compare_sizes(const lab::Command& command, const Options& o, double mu,
-                   std::vector<std::vector<double>>& rows, talus::RunSummary& all, int& code) {
-    std::vector<double> x, solid;
-    for (const double size : {2.25, 1.5, 1.0}) {
+                   std::vector<lab::PackingStudy>& studies, talus::RunSummary& all, int& code) {
+    lab::PackingStudy study(Dim, mu);
+    for (const double size : o.sizes) {
         lab::Packing p;
         if (!compress<Dim>(command, o, mu, size, p, all, code)) return false;
-        std::printf(
-            "%dD, mu %g, %g grains: solid fraction %.3f, %.2f contacts a grain; bearing "
-            "contacts %g, degrees of freedom %g\n",
-            Dim, mu, p.grains, p.solid, p.coordination(), p.contacts, p.freedom);
-        rows.push_back(
-            {double{Dim}, mu, size, p.grains, p.solid, p.coordination(), p.contacts, p.freedom});
-        x.push_back(size);
-        solid.push_back(p.solid);
+        study.add(size, p);
     }
-    const char* expected[2][2] = {{"0.84", "0.79 to 0.82"}, {"0.64", "0.59 to 0.61"}};
-    std::printf(
-        "    walls take room of the size of grains: without, the solid fraction would be "
-        "%.3f (far from walls %s)\n",
-        talus::fit_line(x, solid).at_zero, expected[Dim - 2][mu > 0.0 ? 1 : 0]);
+    study.print();
+    studies.push_back(study);
     return true;
 }
 
@@ -116,6 +105,9 @@ int main(int argc, char** argv) {
             "Balls are pressed from all sides, in the plane and in space, without "
             "friction and with it, of three sizes: contacts and degrees of freedom "
             "are counted.");
+        command.choice("--dim", o.dim, {"both", "2", "3"}, "dimensions");
+        command.list("--sizes", o.sizes, {2.25, 1.5, 1.0}, 0.5, 10,
+                     "of grains in turn, over that of the finest");
         command.count("--count", o.count, 4000, 100, 1e6, "of the finest grains");
         command.number("--radius", o.radius, 1e-6, 1e3, "mean radius of the finest grains [m]");
         command.number("--ratio", o.ratio, 1, 10, "largest over smallest radius");
@@ -126,23 +118,14 @@ int main(int argc, char** argv) {
         command.number("--step", o.step, 1e-9, 1, "step size [s]");
         command.number("--fine", o.fine, 1e-12, 1e-3, "tolerance at rest without friction");
         if (!command.read(argc, argv)) return 0;
-        std::vector<std::vector<double>> rows;
+        std::vector<lab::PackingStudy> studies;
         talus::RunSummary all;
         int code = 0;
-        for (const double mu : {0.0, o.mu})
-            if (!compare_sizes<2>(command, o, mu, rows, all, code) ||
-                !compare_sizes<3>(command, o, mu, rows, all, code))
-                return code;
-        lab::write_rows(command.out() / "packings.csv",
-                        {{"dimension [-]"},
-                         {"mu [-]"},
-                         {"size [-]"},
-                         {"grains [-]"},
-                         {"solid fraction [-]"},
-                         {"contacts a grain [-]"},
-                         {"bearing contacts [-]"},
-                         {"degrees of freedom [-]"}},
-                        rows);
+        for (const double mu : {0.0, o.mu}) {
+            if (o.dim != 2 && !compare_sizes<2>(command, o, mu, studies, all, code)) return code;
+            if (o.dim != 1 && !compare_sizes<3>(command, o, mu, studies, all, code)) return code;
+        }
+        lab::write_packings(command.out(), studies);
         std::printf("%s\n", to_string(all).c_str());
         return code;
     });

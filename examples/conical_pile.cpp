@@ -25,6 +25,7 @@
 #include "lab/run.hpp"
 #include "lab/samples/pour.hpp"
 #include "lab/samples/rough_floor.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -98,6 +99,7 @@ int pile_up(const lab::Command& command, const Options& o) {
     profile.write(command.out());
     std::printf("%lld grains; the ground carries %.4f of their weight\n",
                 static_cast<long long>(inlet.count()), pressure.force() / weight);
+    std::vector<lab::Finding> findings;
     if (profile.sloped()) {
         const talus::LineFit& slope = profile.slope();
         std::printf("slope %.1f degrees; pressure under the summit over the largest: %.2f\n",
@@ -105,13 +107,12 @@ int pile_up(const lab::Command& command, const Options& o) {
         // Half-way down the flank, three grains deep, over six.
         const lab::HeapCuts<Dim> cuts(sim, slope, 0.5 * profile.radius(), 6.0 * o.radius,
                                       6.0 * o.radius, o.radius);
-        std::printf(
-            "across a cylinder half as wide as the heap the force leans by %.0f degrees "
-            "(along the surface: %.0f)\n    and carries %.3f of the weight; across cuts along "
-            "the surface it is %.0f degrees from the vertical (0)\n",
-            cuts.angle_on_core() * degree, slope.angle() * degree, cuts.carried() / weight,
-            cuts.angle_on_flank() * degree);
+        cuts.print(weight);
+        findings = cuts.findings();
+        findings.push_back({"pressure under the summit", "largest", profile.under_summit()});
     }
+    findings.push_back({"carried by the ground", "weight", pressure.force() / weight});
+    lab::write_findings(command.out(), findings);
 
     lab::PictureParams look;
     look.title = "A heap from a point source on a rough floor";

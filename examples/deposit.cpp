@@ -24,6 +24,7 @@
 #include "lab/run.hpp"
 #include "lab/samples/bins.hpp"
 #include "lab/samples/grains.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -109,6 +110,7 @@ int rain(const lab::Command& command, const Options& o) {
         study.print();
     }
     study.write(command.out());
+    lab::write_findings(command.out(), study.findings());
     lab::PictureParams look;
     look.title = "Grains that have rained";
     look.window = bins.window();

@@ -92,7 +92,7 @@ int turn(const lab::Command& command, const Options& o) {
         };
     };
     const auto spin_up = [&](double turns) {
-        lab::move_on<Dim>(system, wall, drum.turning(turns));
+        lab::move_on<Dim>(system, wall, talus::drum_twist<Dim>(turns));
     };
     const bool filled = lab::pour(run, sim, inlet, full, 1.0, "filling");
     const double begin = full.time + o.settle, flows = begin + o.flow, end = flows + o.creep;

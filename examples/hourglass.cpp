@@ -24,6 +24,7 @@
 #include "lab/samples/fill.hpp"
 #include "lab/samples/flow.hpp"
 #include "lab/samples/vessel.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -102,6 +103,11 @@ int let_flow(const lab::Command& command, const Options& o) {
         "widths (reference: 1 +- 0.05), %.3f +- %.3f from there to 0.6\n",
         above.mean() / steady, above.error(4) / steady, below.mean() / steady,
         below.error(4) / steady);
+    const bool fitted = law.flowing() >= 3;
+    lab::write_findings(command.out(),
+                        {{"exponent", "-", fitted ? law.free_fit().exponent : std::nan("")},
+                         {"offset", "diameters", fitted ? law.free_fit().offset : std::nan("")},
+                         {"flow running empty while high", "steady", above.mean() / steady}});
 
     const auto look =
         lab::in_weights("An hourglass runs empty", fill().mass / vessel.grains(full),

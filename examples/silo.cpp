@@ -19,6 +19,7 @@
 #include "lab/samples/move_on.hpp"
 #include "lab/samples/pour.hpp"
 #include "lab/samples/vessel.hpp"
+#include "lab/table.hpp"
 
 namespace {
 
@@ -85,6 +86,7 @@ int fill_and_sink(const lab::Command& command, const Options& o) {
     const lab::Janssen<Dim> law(contents(), profile, gravity);
     law.print(vessel, o.wall);
     law.write(command.out(), pouring);
+    lab::write_findings(command.out(), law.findings(vessel, o.wall));
 
     const double side = Dim == 2 ? 0.6 * top : 0.55 * vessel.width;
     const auto look = lab::in_weights("A silo whose floor sinks", contents().mass / grains,

@@ -9,11 +9,14 @@ Chromium, programs are those of FOLDER (build/examples/examples). Exit code 1 if
 """
 import argparse
 import concurrent.futures
+import csv
 import html
 import json
+import math
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -41,6 +44,8 @@ figcaption, .note { color: var(--soft); font-size: .88rem; }
 blockquote { margin: .4rem 0; padding-left: .8rem; border-left: 3px solid var(--line); color: var(--soft); }
 pre { margin: .5rem 0; padding: .6rem .7rem; background: var(--card); border: 1px solid var(--line); font: 13px/1.45 "DejaVu Sans Mono",
   monospace; white-space: pre-wrap; overflow-wrap: anywhere; }
+table { border-collapse: collapse; font-size: .88rem; margin: .5rem 0; } caption { text-align: left; color: var(--soft); }
+td { padding: .1rem .8rem .1rem 0; vertical-align: top; }
 .certified { color: #1a7f37; } .missed { color: #b3261e; } @media (prefers-color-scheme: dark) { .certified { color: #6fd08c; }
   .missed { color: #ff9b93; } }
 """
@@ -97,7 +102,32 @@ def perform(experiment, seed, programs, work):
     run = subprocess.run([str(program), *experiment.get("options", []), "--seed", str(seed), "--out", str(out), "--quiet", "--fresh"],
                          capture_output=True, text=True)
     return {"seed": seed, "code": run.returncode, "seconds": round(time.monotonic() - begin), "printed": run.stdout,
-            "complaint": run.stderr.strip()}, out
+            "complaint": run.stderr.strip(), "found": findings(out)}, out
+
+
+def findings(out):
+    """What an experiment found, [name, unit, value] for each; a value that is none is null."""
+    try:
+        with open(out / "findings.csv", newline="") as file:
+            rows = [(row["finding"], row["unit"], float(row["value"])) for row in csv.DictReader(file)]
+    except FileNotFoundError:
+        return []
+    return [[name, unit, value if math.isfinite(value) else None] for name, unit, value in rows]
+
+
+def found_table(runs):
+    """Means of what several runs found, with their standard errors."""
+    lines = []
+    for name, unit, _ in runs[0].get("found", []):
+        values = [value for run in runs for other, _, value in run.get("found", []) if other == name and value is not None]
+        if len(values) < 2:
+            continue
+        error = statistics.stdev(values) / math.sqrt(len(values))
+        lines.append(f"<tr><td>{html.escape(name)}</td><td>{statistics.fmean(values):.4g} ± {error:.2g}</td>"
+                     f"<td>{html.escape(unit)}</td></tr>")
+    if not lines:
+        return ""
+    return f'<table><caption>Means of {len(runs)} seeds, with their standard errors</caption>{"".join(lines)}</table>'
 
 
 def run_all(names, options, results):
@@ -139,6 +169,7 @@ def article(experiment, runs):
     if experiment.get("paper"):
         words.append(f'<blockquote>{text(experiment["paper"])}</blockquote>')
     words.append(f"<pre>{text(command)}</pre>")
+    words.append(found_table(runs))
     for run in runs:
         said, lines = certificate(run["printed"])
         believed = run["code"] == 0

@@ -20,4 +20,14 @@ void write_table(const std::filesystem::path& file, const std::vector<Column>& c
 void write_rows(const std::filesystem::path& file, std::vector<Column> columns,
                 const std::vector<std::vector<double>>& rows);
 
+/// A number that an experiment has found.
+struct Finding {
+    std::string name;  ///< of lower-case words, without a comma
+    std::string unit;  ///< "-" for a pure number
+    double value;      ///< nan: not found, as of avalanches that did not come
+};
+/// Writes them as `findings.csv`, a line for each, for programs that compare them over seeds and
+/// with what is known.
+void write_findings(const std::filesystem::path& folder, const std::vector<Finding>& findings);
+
 }  // namespace lab

@@ -6,6 +6,7 @@ Without Chromium the last is left out (exit status 77, skipped).
 """
 import pathlib
 import sys
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -52,6 +53,23 @@ class Page(unittest.TestCase):
         with self.assertRaisesRegex(make_gallery.GalleryError, "no experiment is called 'nothing'"):
             make_gallery.run_all(["nothing"], None, {})
         self.assertEqual(make_gallery.certificate("a\nnot certified: b\n"), (["not certified: b"], ["a"]))
+
+
+class Findings(unittest.TestCase):
+    def test_means_of_seeds_are_shown_with_their_errors(self):
+        runs = [{"found": [["angle", "degrees", 20.0 + k], ["never", "-", None]]} for k in (1, 2, 3)]
+        table = make_gallery.found_table(runs)
+        self.assertIn("<td>angle</td><td>22 ± 0.58</td><td>degrees</td>", table)
+        self.assertNotIn("never", table)
+        self.assertEqual(make_gallery.found_table(runs[:1]), "")
+        self.assertEqual(make_gallery.found_table([{}, {}]), "")
+
+    def test_they_are_read_from_what_the_experiment_wrote(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder)
+            self.assertEqual(make_gallery.findings(out), [])
+            (out / "findings.csv").write_text("finding,unit,value\nangle,degrees,1.5\nnever,-,nan\n")
+            self.assertEqual(make_gallery.findings(out), [["angle", "degrees", 1.5], ["never", "-", None]])
 
 
 @unittest.skipUnless(browser.installed(), "Chromium is missing")

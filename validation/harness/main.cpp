@@ -30,6 +30,7 @@ struct Options {
     int jobs = 1;
     std::uint64_t seed = 1;
     bool list = false;
+    bool allow_none = false;  ///< where other programs have cases, no match is no mistake
     bool mutants = false, few_mutants = false;
     std::string solver, scheme;  ///< empty: each case's own
     double patience = 1.0;
@@ -239,7 +240,7 @@ int run(const Options& options) {
         list(jobs);
         return 0;
     }
-    if (jobs.empty()) {
+    if (jobs.empty() && !options.allow_none) {
         std::fprintf(stderr, "no case matches; --list shows them\n");
         return 2;
     }
@@ -300,7 +301,7 @@ int main(int argc, char** argv) {
         // What validation/run adds by itself.
         if (word == "--output" || word == "--commit" || word == "--jobs")
             ++k;
-        else
+        else if (word != "--allow-none")
             options.command += " " + word;
     }
     app.add_option("--gate", options.gate, "cases up to this gate: 1 seconds, 2 minutes, 3 hours")
@@ -315,6 +316,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--seed", options.seed, "of all random realisations")->capture_default_str();
     app.add_flag("--list", options.list, "list the cases and stop");
+    app.add_flag("--allow-none", options.allow_none, "a report of no case is one, too");
     app.add_option("--solver", options.solver, "in place of the one that each case chooses")
         ->check(CLI::IsMember(solver_names()));
     app.add_option("--scheme", options.scheme, "in place of the one that each case chooses")

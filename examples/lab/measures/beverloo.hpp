@@ -33,6 +33,9 @@ class Beverloo {
         found_.push_back(flow.mean());
         root_.push_back(std::pow(flow.mean(), 1.0 / power));
     }
+    /// With the exponent fitted as well, for three openings or more.
+    PowerFit free_fit() const { return fit_offset_power(wide_, found_, 1.0, 2.0); }
+    std::size_t flowing() const { return wide_.size(); }
     /// `openings.csv`, `beverloo.svg`, and the law from three openings on; `unit` is that of its
     /// constant C, density sqrt(g) d^power [kg/s].
     void report(const std::filesystem::path& folder, double unit) const {
@@ -45,7 +48,7 @@ class Beverloo {
         if (wide_.size() >= 3) {
             const talus::LineFit line = talus::fit_line(wide_, root_);
             const auto law = [&](double x) { return line.at_zero + line.slope * x; };
-            const PowerFit free = fit_offset_power(wide_, found_, 1.0, 2.0);
+            const PowerFit free = free_fit();
             std::printf("exponent %.2f with k = %.2f (reference: %.1f +- %.1f, k from 1 to 2)\n",
                         free.exponent, free.offset, power, Dim == 2 ? 0.1 : 0.2);
             std::printf(

@@ -42,6 +42,14 @@ struct Collapses {
         std::printf("%5.2f   %12.3f   %11.3f   %21.2f\n", aspect.back(), run_out.back(),
                     height.back(), time.back());
     }
+    /// The exponent of the run-out over columns from `low` to `high`; nan of less than two.
+    double exponent(double low, double high) const {
+        std::vector<double> a, far;
+        for (std::size_t k = 0; k < aspect.size(); ++k)
+            if (aspect[k] >= low && aspect[k] <= high && run_out[k] > 0.0)
+                a.push_back(aspect[k]), far.push_back(run_out[k]);
+        return a.size() < 2 ? std::nan("") : fit_power(a, far).exponent;
+    }
     /// The exponents of run-out and height over columns from `low` to `high`, beside what was
     /// found elsewhere.
     void print_exponents(double low, double high, const char* reference) const {

@@ -8,10 +8,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
+
+#include "../table.hpp"
 
 namespace lab {
 
@@ -28,12 +31,12 @@ class HeapCuts {
     /// the floor's own contacts, does not count.
     HeapCuts(const talus::Simulation<Dim>& sim, const talus::LineFit& surface, double distance,
              double depth, double size, double ground)
-        : sim_(sim) {
+        : sim_(sim), lean_(surface.angle()) {
         const auto& data = sim.data();
         talus::contact_forces<Dim>(data.problem.jacobian, data.impulse, data.h, forces_);
-        const double lean = surface.angle(), height = surface.at_zero + surface.slope * distance;
+        const double height = surface.at_zero + surface.slope * distance;
         for (const V& out : directions()) {
-            const V normal = std::sin(lean) * out + std::cos(lean) * up();
+            const V normal = std::sin(lean_) * out + std::cos(lean_) * up();
             const V centre = distance * out + (height - depth) * up();
             add(on_flank_, talus::FlatCut<Dim>(centre, normal, size), out);
         }
@@ -57,7 +60,25 @@ class HeapCuts {
     /// Of the force across cuts along the surface, from the vertical, positive outwards [rad].
     double angle_on_flank() const { return angle(on_flank_[0], -on_flank_[1]); }
 
+    /// With the weight of the heap [N].
+    void print(double weight) const {
+        std::printf(
+            "across a cylinder half as wide as the heap the force leans by %.0f degrees "
+            "(along the surface: %.0f)\n    and carries %.3f of the weight; across cuts along "
+            "the surface it is %.0f degrees from the vertical (0)\n",
+            angle_on_core() * degree, lean_ * degree, carried() / weight,
+            angle_on_flank() * degree);
+    }
+    std::vector<Finding> findings() const {
+        return {
+            {"slope", "degrees", lean_ * degree},
+            {"force across a cylinder less slope", "degrees", (angle_on_core() - lean_) * degree},
+            {"force across cuts along the surface from the vertical", "degrees",
+             angle_on_flank() * degree}};
+    }
+
   private:
+    static constexpr double degree = 180.0 / std::numbers::pi;
     static double angle(double side, double along) {
         return side != 0.0 || along != 0.0 ? std::atan2(side, along)
                                            : std::numeric_limits<double>::quiet_NaN();
@@ -89,6 +110,7 @@ class HeapCuts {
     }
 
     const talus::Simulation<Dim>& sim_;
+    double lean_;  // [rad]
     std::vector<V> forces_;
     talus::Vector<2> on_core_ = talus::Vector<2>::Zero(), on_flank_ = talus::Vector<2>::Zero();
 };

@@ -39,17 +39,22 @@ class ObliqueStudy<2> {
         std::printf("%s: %.0f points of contact; most frequent at", names_.back().c_str(), counted);
         for (const double peak : talus::fit_fabric(h).peaks())
             std::printf(" %.0f", peak * 180.0 / std::numbers::pi);
-        // Sectors 5 and 6 meet at the vertical.
-        const double upright = h.count(5) + h.count(6);
-        double oblique = 0.0, left = 0.0, right = 0.0;
-        for (std::size_t k = 0; k < 6; ++k) {
-            right += h.count(k);
-            left += h.count(11 - k);
-            if (k < 5) oblique = std::max(oblique, h.count(k) + h.count(11 - k));
-        }
+        const Counts c(h);
         std::printf(" degrees;\n    upright over oblique %.2f +- %.2f; right - left %.1f s.e.\n",
-                    upright / oblique, upright / oblique * std::sqrt(1.0 / upright + 1.0 / oblique),
-                    (right - left) / std::sqrt(right + left));
+                    c.upright / c.oblique,
+                    c.upright / c.oblique * std::sqrt(1.0 / c.upright + 1.0 / c.oblique),
+                    c.asymmetry());
+    }
+    /// Of all.
+    std::vector<Finding> findings() const {
+        std::vector<Finding> found;
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            const Counts c(histograms_[i]);
+            const std::string of = " of sample " + std::to_string(i);
+            found.push_back({"oblique less upright" + of, "s.e.", c.preference()});
+            found.push_back({"right less left" + of, "s.e.", c.asymmetry()});
+        }
+        return found;
     }
     void write(const std::filesystem::path& out) const {
         std::vector<Rose> roses;
@@ -67,6 +72,21 @@ class ObliqueStudy<2> {
     }
 
   private:
+    /// Of contacts in the two sectors that meet at the vertical, in the fullest pair of others that
+    /// are as far to the left as to the right, and to both sides.
+    struct Counts {
+        double upright, oblique = 0.0, left = 0.0, right = 0.0;
+        // Sectors 5 and 6 meet at the vertical.
+        explicit Counts(const talus::DirectionHistogram& h) : upright(h.count(5) + h.count(6)) {
+            for (std::size_t k = 0; k < 6; ++k) {
+                right += h.count(k);
+                left += h.count(11 - k);
+                if (k < 5) oblique = std::max(oblique, h.count(k) + h.count(11 - k));
+            }
+        }
+        double preference() const { return (oblique - upright) / std::sqrt(oblique + upright); }
+        double asymmetry() const { return (right - left) / std::sqrt(right + left); }
+    };
     std::vector<std::string> names_;
     std::vector<talus::DirectionHistogram> histograms_;
 };
@@ -84,9 +104,7 @@ class ObliqueStudy<3> {
     void print() const {
         const talus::AxialHistogram& h = histograms_.back();
         if (h.total() < 1.0) return;
-        std::size_t most = 0;
-        for (std::size_t k = 0; k < h.bands(); ++k)
-            if (h.density(k) > h.density(most)) most = k;
+        const std::size_t most = densest(h);
         const double ratio = h.density(0) / h.density(most);
         std::printf(
             "%s: %.0f points of contact; most frequent at %.0f degrees from the vertical "
@@ -94,6 +112,18 @@ class ObliqueStudy<3> {
             names_.back().c_str(), h.total(), h.middle(most) * 180.0 / std::numbers::pi,
             h.peak() * 180.0 / std::numbers::pi, ratio,
             ratio * std::sqrt(1.0 / std::max(h.count(0), 1.0) + 1.0 / h.count(most)));
+    }
+    std::vector<Finding> findings() const {
+        std::vector<Finding> found;
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            const talus::AxialHistogram& h = histograms_[i];
+            const std::size_t most = densest(h);
+            const double error = std::sqrt(h.density(0) * h.density(0) / std::max(h.count(0), 1.0) +
+                                           h.density(most) * h.density(most) / h.count(most));
+            found.push_back({"oblique less upright of sample " + std::to_string(i), "s.e.",
+                             (h.density(most) - h.density(0)) / error});
+        }
+        return found;
     }
     void write(const std::filesystem::path& out) const {
         Plot plot{"Density of contact normals by their angle to the vertical",
@@ -119,6 +149,12 @@ class ObliqueStudy<3> {
     }
 
   private:
+    static std::size_t densest(const talus::AxialHistogram& h) {
+        std::size_t most = 0;
+        for (std::size_t k = 0; k < h.bands(); ++k)
+            if (h.density(k) > h.density(most)) most = k;
+        return most;
+    }
     std::vector<std::string> names_;
     std::vector<talus::AxialHistogram> histograms_;
 };

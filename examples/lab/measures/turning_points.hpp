@@ -7,8 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <vector>
+
+#include "../table.hpp"
+#include "averages.hpp"
 
 namespace lab {
 
@@ -41,6 +45,21 @@ class TurningPoints {
     std::vector<double> peaks() const { return every_other(0); }
     std::vector<double> valleys() const { return every_other(1); }
 
+    /// Angles of a surface [degrees]: it falls in avalanches from the limit angle to that of
+    /// repose.
+    void print_avalanches() const {
+        std::printf(
+            "%zu avalanches of %g degrees or more: angle of repose %.1f, limit angle %.1f degrees "
+            "(the\n    paper: some 25 and 29)\n",
+            valleys().size(), amplitude_, mean_of(valleys()), mean_of(peaks()));
+    }
+    std::vector<Finding> findings() const {
+        const double repose = mean_of(valleys());
+        return {{"avalanches", "-", static_cast<double>(valleys().size())},
+                {"angle of repose", "degrees", repose},
+                {"limit angle less angle of repose", "degrees", mean_of(peaks()) - repose}};
+    }
+
     void write(talus::NumberRecord& out) const {
         out.real(high_);
         out.real(low_);
@@ -59,6 +78,9 @@ class TurningPoints {
     }
 
   private:
+    static double mean_of(const std::vector<double>& angles) {
+        return angles.empty() ? std::nan("") : average_of(angles).mean();
+    }
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<double> every_other(std::size_t first) const {
         std::vector<double> found;

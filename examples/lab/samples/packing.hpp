@@ -4,8 +4,10 @@
 #include <talus/measure/contact_network.hpp>
 #include <talus/stepping/simulation.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "press.hpp"
 
@@ -17,6 +19,7 @@ struct Packing {
     double grains = 0, solid = 0;                ///< [-]
     double contacts = 0, freedom = 0, ends = 0;  ///< that bear; of grains that do; on such grains
     double bearing = 0;                          ///< grains that bear
+    std::vector<double> normal_forces = {};      ///< between grains that bear [N]
     double coordination() const { return bearing > 0.0 ? ends / bearing : 0.0; }
 };
 
@@ -42,6 +45,9 @@ Packing measure_packing(const talus::Simulation<Dim>& sim, const PressedBox<Dim>
         ++p.contacts;
         for (const auto i : {data.contacts.key[c].a, data.contacts.key[c].b})
             p.ends += static_cast<std::size_t>(i) < box.grains() ? 1.0 : 0.0;
+        const auto& key = data.contacts.key[c];
+        if (static_cast<std::size_t>(std::max(key.a, key.b)) < box.grains())
+            p.normal_forces.push_back(data.impulse[c][0] / data.h);
     }
     for (std::size_t i = 0; i < box.grains(); ++i) p.bearing += network.is_rattler[i] ? 0.0 : 1.0;
     p.freedom = Dim * p.bearing + Dim;  // each lid has one of its own

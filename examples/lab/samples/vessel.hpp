@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/feed/place.hpp>
+#include <talus/sample/vessels.hpp>
 #include <talus/stepping/simulation.hpp>
 
 #include <cmath>
@@ -31,13 +32,8 @@ struct Vessel {
 
     /// The wall, one or two obstacles.
     void add_wall(talus::System<Dim>& system, talus::MaterialIndex material = 0) const {
-        using V = talus::Vector<Dim>;
-        if constexpr (Dim == 2)
-            for (const double side : {-1.0, 1.0})
-                system.add_obstacle(talus::HalfSpace<2>(side * V::Unit(0), -0.5 * width), {},
-                                    material);
-        else
-            system.add_obstacle(talus::RoundHole<3>(0.5 * width, V::Unit(2)), {}, material);
+        for (const auto& wall : talus::tube<Dim>(width))
+            system.add_obstacle(wall.shape, wall.pose, material);
     }
     /// A floor of planks around an opening: two in the plane, in space 16, whose ends are tangents
     /// of a circle. The first obstacles of all.

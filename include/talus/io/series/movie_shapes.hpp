@@ -3,12 +3,12 @@
 
 #include <talus/core/printable.hpp>
 #include <talus/geometry/shape_view.hpp>
+#include <talus/io/series/directions.hpp>
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,40 +62,6 @@ inline void add_rotation(std::string& text, const Rotation<3>& rotation) {
     add_numbers(text, {rotation.quaternion().coeffs().data(), 4});
 }
 
-/// Directions all around, and the faces of what has one point for each of them.
-template <int Dim>
-struct Directions {
-    std::vector<Vector<Dim>> unit;
-    std::vector<std::vector<std::size_t>> faces;
-};
-inline void look_around(Directions<2>& around) {
-    constexpr std::size_t count = 64;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / count;
-        around.unit.emplace_back(std::cos(angle), std::sin(angle));
-        around.faces.push_back({i, (i + 1) % count});
-    }
-}
-inline void look_around(Directions<3>& around) {
-    constexpr std::size_t rings = 11, count = 24;  // between the poles, which come last
-    constexpr std::size_t south = rings * count, north = south + 1;
-    for (std::size_t k = 0; k < rings; ++k)
-        for (std::size_t i = 0; i < count; ++i) {
-            const double polar = std::numbers::pi * static_cast<double>(k + 1) / (rings + 1),
-                         angle = 2.0 * std::numbers::pi * static_cast<double>(i) / count;
-            around.unit.emplace_back(std::sin(polar) * std::cos(angle),
-                                     std::sin(polar) * std::sin(angle), -std::cos(polar));
-            const std::size_t here = k * count + i, next = k * count + (i + 1) % count;
-            if (k == 0) around.faces.push_back({south, next, here});
-            if (k + 1 < rings)
-                around.faces.push_back({here, next, next + count, here + count});
-            else
-                around.faces.push_back({here, next, north});
-        }
-    around.unit.emplace_back(0.0, 0.0, -1.0);
-    around.unit.emplace_back(0.0, 0.0, 1.0);
-}
-
 template <class Face>
 void add_face(std::string& text, const Face& face) {
     text += text.back() == '[' ? "[" : ",[";
@@ -106,8 +72,7 @@ void add_face(std::string& text, const Face& face) {
 /// A convex shape without a core: the points farthest in all directions, as corners.
 template <int Dim>
 void add_outline(std::string& text, const ShapeView<Dim>& shape) {
-    Directions<Dim> around;
-    look_around(around);
+    const Directions<Dim> around(Dim == 2 ? 64 : 24);
     text += R"({"kind":"core","radius":0,"vertices":[)";
     for (const auto& d : around.unit) add_numbers<Dim>(text, shape.support(d));
     text += R"(],"faces":[)";
