@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/collision/narrow_routines.hpp>
+#include <talus/collision/narrow_phase.hpp>
 
 #include <cstdint>
 #include <span>

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -37,10 +36,7 @@ class BallRegion {
     bool contains(const Vector<Dim>& x) const {
         return (x - centre_).squaredNorm() < radius_ * radius_;
     }
-    double volume() const {
-        return (Dim == 2 ? std::numbers::pi : 4.0 / 3.0 * std::numbers::pi) *
-               std::pow(radius_, Dim);
-    }
+    double volume() const { return Ball<Dim>(radius_).mass_properties().volume; }
     Aabb<Dim> box() const { return Aabb<Dim>{centre_, centre_}.expanded(radius_); }
 
   private:

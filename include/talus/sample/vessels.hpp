@@ -5,6 +5,7 @@
 #include <talus/geometry/any_shape.hpp>
 #include <talus/sample/granulometry.hpp>
 #include <talus/sample/random.hpp>
+#include <talus/spatial/tilt.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -41,7 +42,7 @@ std::vector<PlacedShape<Dim>> hopper(const HopperParams& params) {
     if (!(params.opening < params.width))
         detail::reject("opening of the hopper", params.opening,
                        "below its width, " + detail::text_of(params.width));
-    if (Dim == 3) require_positive("depth of the hopper", params.depth);
+    if (rotation_dof<Dim> != 1) require_positive("depth of the hopper", params.depth);
     require_positive("lean of the hopper", params.lean);
     require_in("lean of the hopper", params.lean, 0.0, 0.499 * std::numbers::pi);
     require_positive("thickness of the hopper's planks", params.thickness);
@@ -53,20 +54,18 @@ std::vector<PlacedShape<Dim>> hopper(const HopperParams& params) {
     std::vector<PlacedShape<Dim>> walls;
     for (const double side : {-1.0, 1.0}) {
         Vector<Dim> size = Vector<Dim>::Constant(half);
-        if (Dim == 3) size[1] = 0.5 * params.depth + params.thickness;
+        if (rotation_dof<Dim> != 1) size[1] = 0.5 * params.depth + params.thickness;
         size[Dim - 1] = 0.5 * params.thickness;
-        AngularVector<Dim> turn = AngularVector<Dim>::Zero();
-        turn[Dim == 2 ? 0 : 1] = (Dim == 2 ? side : -side) * params.lean;
         const Vector<Dim> along = std::cos(params.lean) * side * x + std::sin(params.lean) * up;
         const Vector<Dim> outside = std::sin(params.lean) * side * x - std::cos(params.lean) * up;
         const Vector<Dim> edge = 0.5 * params.opening * side * x;
         walls.push_back({Box<Dim>(size),
                          {Vector<Dim>(edge + half * along + 0.5 * params.thickness * outside),
-                          Rotation<Dim>::exp(turn)}});
+                          tilt<Dim>(side * params.lean)}});
     }
     for (const double side : {-1.0, 1.0})
         walls.push_back({HalfSpace<Dim>(side * x, -0.5 * params.width)});
-    if constexpr (Dim == 3)
+    if constexpr (rotation_dof<Dim> != 1)
         for (const double side : {-1.0, 1.0})
             walls.push_back({HalfSpace<3>(side * Vector<3>::Unit(1), -0.5 * params.depth)});
     return walls;
@@ -75,10 +74,10 @@ std::vector<PlacedShape<Dim>> hopper(const HopperParams& params) {
 /// A drum about the origin: a circle in the plane, in space a round hole along axis 1, then its two
 /// ends, `length` apart. Throws input_error unless both are positive.
 template <int Dim>
-std::vector<PlacedShape<Dim>> drum(double radius, [[maybe_unused]] double length = 1.0) {
+std::vector<PlacedShape<Dim>> drum(double radius, double length = 1.0) {
     require_positive("radius of the drum", radius);
     require_positive("length of the drum", length);
-    if constexpr (Dim == 2) {
+    if constexpr (rotation_dof<Dim> == 1) {
         return {{RoundHole<2>(radius)}};
     } else {
         const Vector<3> axis = Vector<3>::Unit(1);
@@ -91,7 +90,8 @@ std::vector<PlacedShape<Dim>> drum(double radius, [[maybe_unused]] double length
 template <int Dim>
 Twist<Dim> drum_twist(double turns) {
     Twist<Dim> twist;
-    twist.angular[Dim == 2 ? 0 : 1] = (Dim == 2 ? 1.0 : -1.0) * 2.0 * std::numbers::pi * turns;
+    twist.angular[rotation_dof<Dim> == 1 ? 0 : 1] =
+        (rotation_dof<Dim> == 1 ? 1.0 : -1.0) * 2.0 * std::numbers::pi * turns;
     return twist;
 }
 
@@ -100,7 +100,7 @@ Twist<Dim> drum_twist(double turns) {
 template <int Dim>
 std::vector<PlacedShape<Dim>> tube(double diameter) {
     require_positive("diameter of the tube", diameter);
-    if constexpr (Dim == 2)
+    if constexpr (rotation_dof<Dim> == 1)
         return {{HalfSpace<2>(Vector<2>::Unit(0), -0.5 * diameter)},
                 {HalfSpace<2>(-Vector<2>::Unit(0), -0.5 * diameter)}};
     else
@@ -117,12 +117,12 @@ std::vector<PlacedShape<Dim>> rough_floor(Random& random, const Law& radii, doub
     require_in("grains of the floor", std::pow(2.0 * reach / pitch, Dim - 1), 0.0, 1e7);
     std::vector<PlacedShape<Dim>> walls{
         {HalfSpace<Dim>(Vector<Dim>::Unit(Dim - 1), -radii.mean())}};
-    const int side = static_cast<int>(reach / pitch), across = Dim == 2 ? 0 : side;
+    const int side = static_cast<int>(reach / pitch), across = rotation_dof<Dim> == 1 ? 0 : side;
     for (int i = -side; i <= side; ++i)
         for (int j = -across; j <= across; ++j) {
             Vector<Dim> x = Vector<Dim>::Zero();
             x[0] = pitch * (i + random.uniform(-0.3, 0.3));
-            if (Dim == 3) x[1] = pitch * (j + random.uniform(-0.3, 0.3));
+            if (rotation_dof<Dim> != 1) x[1] = pitch * (j + random.uniform(-0.3, 0.3));
             x[Dim - 1] = -0.5 * radii.mean();
             if (x.norm() < reach) walls.push_back({Ball<Dim>(radii(random)), {x, {}}});
         }

@@ -35,7 +35,8 @@ class BodyShapes {
     }
 
     /// `needs`: the routines for all shapes that this one may be.
-    void push_back(ShapeType shape, const NarrowRoutines<Dim>& needs) {
+    void push_back(ShapeType shape,
+                   const NarrowRoutines<Dim>& needs = narrow_routines<Dim, ShapeType>) {
         const double radius = radius_of(shape), thickness = thickness_of(shape, radius);
         detail::make_room(bounding_radius_, count() + 1);
         detail::make_room(half_thickness_, count() + 1);

@@ -53,7 +53,6 @@ struct System {
 
     // Bodies and shapes can change between steps, not within one (by a force, a law, a hook), which
     // has begun without them: input_error.
-
     /// Adds a homogeneous body of the given density [kg/m^Dim]. `pose` places the shape as it was
     /// given; the body's own frame becomes the principal one. `twist` is of the mass centre.
     template <SolidShape<Dim> S>
@@ -128,8 +127,7 @@ struct System {
                                             ", the number of bodies with shapes"));
         shapes_.replace(static_cast<std::size_t>(body), ShapeType(shape), narrow_routines<Dim, S>);
     }
-    /// All of that, as contact detection takes it, with a number that is another one whenever some
-    /// shape is another; copies of a system share it.
+    /// All of that as contact detection takes it, with its version, which copies share.
     ShapeList<Dim, ShapeType> shape_list() const { return shapes_.list(); }
 
     /// Puts all obstacles where they are at time t [s]. With `reach` [s] it checks that poses and
@@ -385,8 +383,7 @@ void System<Dim, Law, ShapeType>::restore(const RunState<Dim, ShapeType>& state)
         require_in("body of an obstacle", obstacle.body, 0.0, static_cast<double>(n) - 1.0);
     System other(laws);
     other.bodies = state.bodies;
-    for (const ShapeType& shape : state.shapes)
-        other.shapes_.push_back(shape, narrow_routines<Dim, ShapeType>);
+    for (const ShapeType& shape : state.shapes) other.shapes_.push_back(shape);
     other.obstacles = state.obstacles;
     other.ignored = state.ignored;
     for (const Obstacle& obstacle : other.obstacles)

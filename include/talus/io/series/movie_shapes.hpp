@@ -72,7 +72,7 @@ void add_face(std::string& text, const Face& face) {
 /// A convex shape without a core: the points farthest in all directions, as corners.
 template <int Dim>
 void add_outline(std::string& text, const ShapeView<Dim>& shape) {
-    const Directions<Dim> around(Dim == 2 ? 64 : 24);
+    const Directions<Dim> around(rotation_dof<Dim> == 1 ? 64 : 24);
     text += R"({"kind":"core","radius":0,"vertices":[)";
     for (const auto& d : around.unit) add_numbers<Dim>(text, shape.support(d));
     text += R"(],"faces":[)";

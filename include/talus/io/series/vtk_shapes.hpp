@@ -65,6 +65,7 @@ class VtkShapes {
     const VtkPolyData& data() const { return data_; }
 
   private:
+    static constexpr bool in_plane = rotation_dof<Dim> == 1;
     static const VtkShapesParams& checked(const VtkShapesParams& params) {
         require_in("meridians", static_cast<double>(params.meridians), 4.0, 1000.0);
         if (params.meridians % 2 != 0)
@@ -78,7 +79,7 @@ class VtkShapes {
         return x;
     }
     static Vector<3> spin_in_space(const AngularVector<Dim>& spin) {
-        if constexpr (Dim == 2)
+        if constexpr (in_plane)
             return Vector<3>(0.0, 0.0, spin[0]);
         else
             return spin;
@@ -124,7 +125,7 @@ class VtkShapes {
     }
     void add_core(std::size_t body, const CoreView<Dim>& core, const Pose<Dim>& pose) {
         const std::size_t first = add_points(core.vertices, pose);
-        if constexpr (Dim == 2) {
+        if constexpr (in_plane) {
             // Its sides, one after the other, as a polygon.
             std::vector<std::uint32_t> after(core.vertices.size(), 0), outline;
             for (std::size_t f = 0; f < core.face_count(); ++f)
@@ -143,7 +144,7 @@ class VtkShapes {
         std::vector<Vector<Dim>> points;
         for (const Vector<Dim>& d : around_.unit) points.push_back(shape.support(d));
         const std::size_t first = add_points(points, pose);
-        if constexpr (Dim == 2) {
+        if constexpr (in_plane) {
             std::vector<std::size_t> outline(points.size());
             for (std::size_t k = 0; k < outline.size(); ++k) outline[k] = k;
             add_face(body, first, outline);
@@ -156,7 +157,7 @@ class VtkShapes {
         const Vector<Dim>& n = wall.normal();
         const Vector<Dim> centre = origin - (n.dot(origin) - wall.offset()) * n;
         std::vector<Vector<Dim>> corners;
-        if constexpr (Dim == 2) {
+        if constexpr (in_plane) {
             const Vector<2> along = wall_ * Vector<2>(-n[1], n[0]);
             corners = {centre - along, centre + along};
         } else {
