@@ -74,12 +74,16 @@ class AcceleratedGaussSeidel {
     /// Residuals kept in SolveReport::history; from then on the last one is replaced.
     static constexpr std::size_t history_limit = 256;
 
+    /// Problems of rigid bodies; `Dim` is the rows per contact, with rolling friction more than
+    /// space has (law_rows).
+    using Problem = ContactProblem<law_space<Law, Dim>, Law>;
+
     explicit AcceleratedGaussSeidel(AcceleratedGaussSeidelParams params = {}) : params(params) {}
     AcceleratedGaussSeidelParams params;
 
     /// Solves `problem` from the warm start `r`, into `r`. Throws input_error on parameters out of
     /// range or arrays of different lengths.
-    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r);
+    const SolveReport& solve(const Problem& problem, std::span<Vector<Dim>> r);
     const SolveReport& solve(AssembledProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
         return solve(problem.delassus, problem.free_velocity, problem.laws, r);
     }
@@ -175,7 +179,7 @@ class AcceleratedGaussSeidel {
     void momentum(std::span<const Vector<Dim>> x, double change);
     void combine(std::span<const Vector<Dim>> x, double change);
 
-    RigidBodyOperators<Dim> bodies_;
+    RigidBodyOperators<law_space<Law, Dim>, Dim> bodies_;
     SweepKernel<Dim, Law> kernel_;
     int count_ = 0, next_look_ = 1;  ///< of iterations
     int last_for_aim_ = 0;           ///< iteration at which the aim is given up; 0: there is none
@@ -192,7 +196,7 @@ class AcceleratedGaussSeidel {
 
 // Not inline, so that `extern template class` spares a user all of it.
 template <int Dim, ContactLaw<Dim> Law>
-const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
+const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(const Problem& problem,
                                                            std::span<Vector<Dim>> r) {
     return bodies_.with(problem.jacobian, problem.inverse_mass, [&](auto& w) -> const SolveReport& {
         return run(w, problem.free_velocity, problem.laws, r);
