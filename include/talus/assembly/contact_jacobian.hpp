@@ -95,8 +95,9 @@ Vector<Rows> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t
     } else {
         Vector<Rows> all;
         all.template head<Dim>() = u;
-        all.template tail<Dim - 1>() = jacobian.rolling_length[c] *
-                                       (rolling_axes<Dim>(jacobian.frame[c]) * (a.angular - b.angular));
+        all.template tail<Dim - 1>() =
+            jacobian.rolling_length[c] *
+            (rolling_axes<Dim>(jacobian.frame[c]) * (a.angular - b.angular));
         return all;
     }
 }

@@ -41,8 +41,8 @@ inline SmallMatrix<rotation_dof<Dim>, Dim> moment_matrix(const Vector<Dim>& arm)
 /// t...): the tangents; in the plane, which knows one axis only, the normal of the plane.
 template <int Dim>
 requires SpaceDimension<Dim>
-inline SmallMatrix<Dim - 1, rotation_dof<Dim>> rolling_axes([
-    [maybe_unused]] const Matrix<Dim>& frame) {
+inline SmallMatrix<Dim - 1, rotation_dof<Dim>> rolling_axes(
+    [[maybe_unused]] const Matrix<Dim>& frame) {
     if constexpr (Dim == 2)
         return Matrix<1>::Identity();
     else

@@ -46,8 +46,7 @@ struct EnergyFlows {
     }
     double magnitude() const {
         return std::abs(friction) + std::abs(restitution) + std::abs(walls) + std::abs(applied) +
-               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange) +
-               std::abs(rolling);
+               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange) + std::abs(rolling);
     }
 };
 
@@ -115,19 +114,20 @@ class EnergyLedger {
     /// To be carried through a checkpoint.
     void write(NumberRecord& out) const {
         out.array(gravity_);
-        for (const double x : {flows_.friction, flows_.restitution, flows_.walls, flows_.applied,
-                               flows_.gyroscopic, flows_.correction, flows_.exchange, flows_.rolling,
-                               kinetic_, kinetic_start_, potential_, potential_start_, largest_})
+        for (const double x :
+             {flows_.friction, flows_.restitution, flows_.walls, flows_.applied, flows_.gyroscopic,
+              flows_.correction, flows_.exchange, flows_.rolling, kinetic_, kinetic_start_,
+              potential_, potential_start_, largest_})
             out.real(x);
     }
     static EnergyLedger read(NumberRecordReader& in) {
         EnergyLedger books;
         books.gravity_ = in.array<Vector<Dim>>();
-        for (double* x : {&books.flows_.friction, &books.flows_.restitution, &books.flows_.walls,
-                          &books.flows_.applied, &books.flows_.gyroscopic, &books.flows_.correction,
-                          &books.flows_.exchange, &books.flows_.rolling, &books.kinetic_,
-                          &books.kinetic_start_,
-                          &books.potential_, &books.potential_start_, &books.largest_})
+        for (double* x :
+             {&books.flows_.friction, &books.flows_.restitution, &books.flows_.walls,
+              &books.flows_.applied, &books.flows_.gyroscopic, &books.flows_.correction,
+              &books.flows_.exchange, &books.flows_.rolling, &books.kinetic_, &books.kinetic_start_,
+              &books.potential_, &books.potential_start_, &books.largest_})
             *x = in.real();
         return books;
     }

@@ -56,8 +56,7 @@ class MoreauMidpoint {
               Solver& solver, Data& data) {
         pose_problem(system, t_begin, h, params, data);
         try {
-            const SolveReport& report =
-                solver.solve(data.problem, data.solution());
+            const SolveReport& report = solver.solve(data.problem, data.solution());
             // As much room as the solver has: no history needs more.
             data.report.history.reserve(report.history.capacity());
             data.report = report;
@@ -69,8 +68,8 @@ class MoreauMidpoint {
     }
 
     /// The first half of a step, up to what a solver is given: the problem, and in
-    /// `data.solution()` what it starts from. Free bodies are left at q_mid, and the system within a step: `complete`
-    /// or `undo` must follow. Throws as `step` does.
+    /// `data.solution()` what it starts from. Free bodies are left at q_mid, and the system within
+    /// a step: `complete` or `undo` must follow. Throws as `step` does.
     void pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
                       Data& data);
     /// The second half, from the impulses that a solver found and what it says of them in
@@ -116,9 +115,8 @@ class MoreauMidpoint {
 // The bodies stand apart from the class, so that `extern template` can keep them from being
 // compiled in every file: what is defined within a class is inline, and is made anyway.
 
-#define TALUS_OF_STEP                                                                    \
-    template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad, \
-              class Hooks>                                                               \
+#define TALUS_OF_STEP                                                                              \
+    template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad, class Hooks> \
     void MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks>
 
 TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,

@@ -71,10 +71,10 @@ struct SimulationTypes {
 
 /// The solver that such types ask for.
 template <int Dim, class Types>
-using SolverOf =
-    std::conditional_t<std::same_as<typename Types::Solver, DefaultSolver>,
-                       AcceleratedGaussSeidel<law_rows<typename Types::Law, Dim>, typename Types::Law>,
-                       typename Types::Solver>;
+using SolverOf = std::conditional_t<
+    std::same_as<typename Types::Solver, DefaultSolver>,
+    AcceleratedGaussSeidel<law_rows<typename Types::Law, Dim>, typename Types::Law>,
+    typename Types::Solver>;
 /// One with its own defaults, or with those of DefaultSolver.
 template <int Dim, class Types>
 SolverOf<Dim, Types> default_solver() {

@@ -50,7 +50,7 @@ struct StepData {
     /// Moment impulses of rolling friction on the first body of each contact, world axes [N m s];
     /// empty for laws without.
     Column<AngularVector<Dim>> moment;
-    std::size_t recalled = 0;          ///< contacts that began with a remembered impulse
+    std::size_t recalled = 0;  ///< contacts that began with a remembered impulse
     SolveReport report;
 
     /// Mechanical energy that a gap correction gave to gravity in this step [J].

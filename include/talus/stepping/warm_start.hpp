@@ -32,8 +32,8 @@ class WarmStart {
     template <class Law>
     void recall(StepData<Dim, Law>& data) const {
         data.impulse.resize(data.contact_count());
-        data.recalled = cache_.recall(data.contacts, data.problem.jacobian, data.impulse,
-                                      scale_of(data));
+        data.recalled =
+            cache_.recall(data.contacts, data.problem.jacobian, data.impulse, scale_of(data));
         if constexpr (has_rolling_rows<Law>) {
             data.moment.resize(data.contact_count());
             cache_.recall_moments(data.contacts, data.moment, scale_of(data));

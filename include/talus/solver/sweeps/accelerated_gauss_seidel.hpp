@@ -67,23 +67,20 @@ struct AcceleratedGaussSeidelParams {
 ///
 /// Cost per iteration: two sweeps and half a sweep for the start at y; Anderson adds 3 depth
 /// products of vectors. Its memory, 2 depth + 4 impulses per contact, is reserved also for the
-/// tries of the other way. `w` is left following the impulses returned.
+/// tries of the other way. `w` is left following the impulses returned. `Dim`: rows of a contact.
 template <int Dim, ContactLaw<Dim> Law>
 class AcceleratedGaussSeidel {
   public:
     /// Residuals kept in SolveReport::history; from then on the last one is replaced.
     static constexpr std::size_t history_limit = 256;
 
-    /// Problems of rigid bodies; `Dim` is the rows per contact, with rolling friction more than
-    /// space has (law_rows).
-    using Problem = ContactProblem<law_space<Law, Dim>, Law>;
-
     explicit AcceleratedGaussSeidel(AcceleratedGaussSeidelParams params = {}) : params(params) {}
     AcceleratedGaussSeidelParams params;
 
     /// Solves `problem` from the warm start `r`, into `r`. Throws input_error on parameters out of
     /// range or arrays of different lengths.
-    const SolveReport& solve(const Problem& problem, std::span<Vector<Dim>> r);
+    const SolveReport& solve(const ContactProblem<law_space<Law, Dim>, Law>& problem,
+                             std::span<Vector<Dim>> r);
     const SolveReport& solve(AssembledProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
         return solve(problem.delassus, problem.free_velocity, problem.laws, r);
     }
@@ -196,8 +193,8 @@ class AcceleratedGaussSeidel {
 
 // Not inline, so that `extern template class` spares a user all of it.
 template <int Dim, ContactLaw<Dim> Law>
-const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(const Problem& problem,
-                                                           std::span<Vector<Dim>> r) {
+const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(
+    const ContactProblem<law_space<Law, Dim>, Law>& problem, std::span<Vector<Dim>> r) {
     return bodies_.with(problem.jacobian, problem.inverse_mass, [&](auto& w) -> const SolveReport& {
         return run(w, problem.free_velocity, problem.laws, r);
     });
