@@ -6,10 +6,10 @@
 /// use. Apart, since few programs need them and they cost more than as much again to compile: the
 /// solvers that treat all contacts at once (solver/automatic.hpp, solver/cones, solver/oracle) and
 /// those by name (solver/any_solver.hpp, solver/solver_registry.hpp), problems given by matrices
-/// (problem/matrix_problem.hpp), rolling friction, which only these can have
-/// (law/rolling_coulomb.hpp), correction of positions (stepping/gap_correction.hpp), walls that
-/// press (dynamics/servo.hpp), the measures of networks, chains, cuts, rings, series and directions
-/// about an axis, and the folders sample, feed and io.
+/// (problem/matrix_problem.hpp), rolling friction (law/rolling_coulomb.hpp), correction of
+/// positions (stepping/gap_correction.hpp), walls that press (dynamics/servo.hpp), the measures of
+/// networks, chains, cuts, rings, series and directions about an axis, and the folders sample, feed
+/// and io.
 #include <talus/collision/brute_force.hpp>
 #include <talus/core/version.hpp>
 #include <talus/law/any_law.hpp>

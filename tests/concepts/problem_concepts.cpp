@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/any_law.hpp>
+#include <talus/law/cohesive.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/law/rolling_coulomb.hpp>
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
+#include <talus/problem/delassus_product.hpp>
 
 namespace problem_concepts {
 
@@ -38,14 +40,19 @@ struct BlockWithoutValue : Sweepable {
 };
 static_assert(!talus::DelassusOperator<BlockWithoutValue, 3>);
 
-/// Rigid bodies give the rows of space: three rows of the plane are not those.
+/// Rigid bodies give the rows that a law asks for; three rows of the plane are not those of space.
 template <class Law, int Dim>
 concept OfRigidBodies = requires {
     typename talus::ContactProblem<Dim, Law>;
 };
 using Rolling = talus::RollingCoulomb<3>;
-static_assert(OfRigidBodies<talus::Coulomb<3>, 3> && !OfRigidBodies<Rolling, 3>);
-static_assert(!OfRigidBodies<talus::AnyLaw<3, talus::Coulomb<3>, Rolling>, 3>);
-static_assert(!OfRigidBodies<talus::RollingCoulomb<5>, 5>);
+static_assert(OfRigidBodies<talus::Coulomb<3>, 3> && !OfRigidBodies<talus::Coulomb<3>, 2>);
+static_assert(OfRigidBodies<Rolling, 2> && !OfRigidBodies<Rolling, 3>);
+static_assert(OfRigidBodies<talus::RollingCoulomb<5>, 3> &&
+              !OfRigidBodies<talus::RollingCoulomb<5>, 5>);
+static_assert(OfRigidBodies<talus::Cohesive<3, Rolling>, 2> &&
+              !OfRigidBodies<talus::AnyLaw<3, talus::Coulomb<3>, Rolling>, 3>);
+using RollingW = talus::DelassusProduct<3, talus::AngularMatrix<3>, 5>;
+static_assert(talus::SweepableDelassus<RollingW, 5> && !talus::DelassusOperator<RollingW, 3>);
 
 }  // namespace problem_concepts

@@ -83,6 +83,18 @@ constexpr bool cones_are_told_apart =
 static_assert(cones_are_told_apart<2> && cones_are_told_apart<3>);
 static_assert(cone_engines_refuse<3, HalfACone> &&
               cone_engines_refuse<3, talus::RollingCoulomb<3>>);
+// Sweeps know rolling rows, in a simulation too; nobody else does, whatever adapts the law.
+template <template <int, class> class Solver, int Dim, class L>
+constexpr bool steps_with = talus::ContactSolver<Solver<talus::law_rows<L, Dim>, L>, Dim, L>;
+template <int Dim, class L = talus::RollingFriction<Dim>>
+constexpr bool sweeps_alone_take =
+    steps_with<talus::GaussSeidel, Dim, L>&& steps_with<talus::AcceleratedGaussSeidel, Dim, L>&&
+        cone_engines_refuse<Dim, L> &&
+    !Takes<talus::Automatic, talus::law_rows<L, Dim>, L> && !Takes<talus::AnySolver, Dim, L>;
+template <int Dim>
+using Bouncing = talus::WeightedMean<talus::rows_with_rolling<Dim>, talus::RollingFriction<Dim>>;
+static_assert(sweeps_alone_take<2> && sweeps_alone_take<3>);
+static_assert(sweeps_alone_take<2, Bouncing<2>> && cone_engines_refuse<3, Bouncing<2>>);
 static_assert(Takes<talus::Automatic, 3, talus::Bilateral<3>> &&
               Takes<talus::Automatic, 3, HalfACone>);
 

@@ -32,4 +32,17 @@ void apply_impulses(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>
     }
 }
 
+/// Adds M^-1 of the moment impulses that contacts transmit beside them, on body a of each, world
+/// axes [N m s], to world-axis twists: the part of rolling friction in u_end.
+template <int Dim>
+void apply_moments(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
+                   std::span<const AngularVector<Dim>> moments, std::span<Twist<Dim>> twists) {
+    for (std::size_t c = 0; c < moments.size(); ++c) {
+        const auto a = static_cast<std::size_t>(jacobian.a[c]);
+        const auto b = static_cast<std::size_t>(jacobian.b[c]);
+        twists[a].angular += inverse_mass.angular[a] * moments[c];
+        twists[b].angular -= inverse_mass.angular[b] * moments[c];
+    }
+}
+
 }  // namespace talus

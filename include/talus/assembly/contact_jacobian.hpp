@@ -66,17 +66,40 @@ void assemble_inverse_mass(const Bodies<Dim>& bodies, InverseMass<Dim>& inverse_
     }
 }
 
+/// Fills the lengths of rolling rows: the effective radius of the two bodies, 1 / L = 1 / R_a + 1 /
+/// R_b [AiChenRotterOoi2011], of a ball on a plane its radius. `radius`: of each body [m], infinite
+/// for what counts as flat; between two flat bodies L is 1 m. O(contacts).
+template <int Dim>
+void assemble_rolling_lengths(std::span<const double> radius, ContactJacobian<Dim>& jacobian) {
+    jacobian.rolling_length.resize(jacobian.contact_count());
+    for (std::size_t c = 0; c < jacobian.contact_count(); ++c) {
+        const double curvature = 1.0 / radius[static_cast<std::size_t>(jacobian.a[c])] +
+                                 1.0 / radius[static_cast<std::size_t>(jacobian.b[c])];
+        jacobian.rolling_length[c] = curvature > 0.0 ? 1.0 / curvature : 1.0;
+    }
+}
+
 /// Relative velocity of contact c when the bodies have the given world-axis twists:
 /// U_c = G_c u + W_c [m/s], local axes ([Moreau] equation (4)). Of a surface that moves on a shape
-/// that does not, only what goes along the surface counts.
-template <int Dim>
-Vector<Dim> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t c,
-                              std::span<const Twist<Dim>> twists) {
+/// that does not, only what goes along the surface counts. With `Rows` more than those of space:
+/// the rolling ones as well.
+template <int Dim, int Rows = Dim>
+Vector<Rows> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t c,
+                               std::span<const Twist<Dim>> twists) {
     const Twist<Dim>& a = twists[static_cast<std::size_t>(jacobian.a[c])];
     const Twist<Dim>& b = twists[static_cast<std::size_t>(jacobian.b[c])];
     Vector<Dim> u = jacobian.frame[c] * (a.at(jacobian.arm_a[c]) - b.at(jacobian.arm_b[c]));
     if (!jacobian.held.empty()) u[0] += jacobian.held[c];
-    return u;
+    if constexpr (Rows == Dim) {
+        return u;
+    } else {
+        Vector<Rows> all;
+        all.template head<Dim>() = u;
+        all.template tail<Dim - 1>() =
+            jacobian.rolling_length[c] *
+            (rolling_axes<Dim>(jacobian.frame[c]) * (a.angular - b.angular));
+        return all;
+    }
 }
 
 }  // namespace talus

@@ -16,13 +16,14 @@ namespace talus {
 template <int Dim, class Law>
 void assemble_velocities(const ContactJacobian<Dim>& jacobian, std::span<const Twist<Dim>> begin,
                          std::span<const Twist<Dim>> free, std::span<const Law> laws,
-                         Column<Vector<Dim>>& free_velocity) {
+                         Column<Vector<law_rows<Law, Dim>>>& free_velocity) {
+    constexpr int rows = law_rows<Law, Dim>;
     free_velocity.resize(laws.size());
     for (std::size_t c = 0; c < laws.size(); ++c) {
-        Vector<Dim>& u_free = free_velocity[c];
-        u_free = relative_velocity<Dim>(jacobian, c, free);
-        if constexpr (RestitutionLaw<Law, Dim>)
-            u_free += laws[c].restitution_shift(relative_velocity<Dim>(jacobian, c, begin));
+        Vector<rows>& u_free = free_velocity[c];
+        u_free = relative_velocity<Dim, rows>(jacobian, c, free);
+        if constexpr (RestitutionLaw<Law, rows>)
+            u_free += laws[c].restitution_shift(relative_velocity<Dim, rows>(jacobian, c, begin));
     }
 }
 

@@ -37,6 +37,18 @@ inline SmallMatrix<rotation_dof<Dim>, Dim> moment_matrix(const Vector<Dim>& arm)
     return l;
 }
 
+/// The axes about which two bodies roll on each other, in rows, from those of their contact, (n,
+/// t...): the tangents; in the plane, which knows one axis only, the normal of the plane.
+template <int Dim>
+requires SpaceDimension<Dim>
+inline SmallMatrix<Dim - 1, rotation_dof<Dim>> rolling_axes(
+    [[maybe_unused]] const Matrix<Dim>& frame) {
+    if constexpr (Dim == 2)
+        return Matrix<1>::Identity();
+    else
+        return frame.template bottomRows<2>();
+}
+
 /// m diag(scale): each column times its factor.
 template <int N>
 Matrix<N> columns_scaled(Matrix<N> m, const Vector<N>& scale) {

@@ -26,6 +26,11 @@ concept ContactRows = Rows == 2 || Rows == 3 || Rows == 5;
 template <int Rows>
 concept RollingRows = Rows == 3 || Rows == 5;
 
+/// Those rows in space of that dimension.
+template <int Dim>
+requires SpaceDimension<Dim>
+inline constexpr int rows_with_rolling = 2 * Dim - 1;
+
 /// A dimension as a type, for tests and dispatch: `Dim<2>`, `Dim<3>`.
 template <int D>
 requires SpaceDimension<D>

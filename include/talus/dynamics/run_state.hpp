@@ -40,6 +40,8 @@ struct RunState {
     /// What the next step begins with: impulses by contact, ascending, in world axes [N s].
     std::vector<ContactKey> key;
     std::vector<Vector<Dim>> impulse;
+    /// Their moments on the first body, world axes [N m s]; empty without rolling friction.
+    std::vector<AngularVector<Dim>> moment;
     /// What the correction of positions remembers, if there is one.
     NumberRecord correction;
 };

@@ -61,8 +61,7 @@ template <class L, int Rows>
 concept LawWithoutRestitution = ContactLaw<L, Rows> && !RestitutionLaw<L, Rows>;
 
 /// Whether the rows after the tangents are rolling components: laws say so by a member
-/// `rolling_rows`, adaptors pass on what they hold. Such a law belongs to no ContactJacobian, which
-/// has none of these rows.
+/// `rolling_rows`, adaptors pass on what they hold.
 template <class L>
 inline constexpr bool has_rolling_rows = [] {
     if constexpr (requires { L::rolling_rows; })
@@ -70,6 +69,24 @@ inline constexpr bool has_rolling_rows = [] {
     else
         return false;
 }();
+
+/// The rows that a law asks of a contact in space of that dimension: those of space, or the rolling
+/// ones as well.
+template <class L, int Dim>
+requires SpaceDimension<Dim>
+inline constexpr int law_rows = has_rolling_rows<L> ? rows_with_rolling<Dim> : Dim;
+
+/// A law of rigid bodies in space of that dimension.
+template <class L, int Dim>
+concept BodyLaw = ContactLaw<L, law_rows<L, Dim>>;
+
+/// The dimension of the space in which a law of so many rows is one of rigid bodies.
+template <class L, int Rows>
+inline constexpr int law_space = has_rolling_rows<L> ? (Rows + 1) / 2 : Rows;
+
+/// A law with the rows of space alone: what solvers take that do not know rolling ones.
+template <class L, int Dim>
+concept LawWithoutRolling = !has_rolling_rows<L> && SpaceDimension<Dim> && ContactLaw<L, Dim>;
 
 /// Whether a law says of itself, by `pushes_only`, that it never pulls, so that nobody need ask it
 /// at every contact. Adaptors pass on what they hold.

@@ -15,7 +15,7 @@ namespace talus {
 /// what solvers need that treat all contacts at once. `friction_cone()` may be empty for a law
 /// chosen at run time.
 template <class L, int Dim>
-concept ConeLaw = SpaceDimension<Dim> && ContactLaw<L, Dim> && requires(const L& law) {
+concept ConeLaw = LawWithoutRolling<L, Dim> && requires(const L& law) {
     { law.friction_cone() } -> std::convertible_to<std::optional<FrictionCone<Dim>>>;
 };
 

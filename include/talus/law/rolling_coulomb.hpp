@@ -21,22 +21,29 @@ namespace talus {
 /// the plane), those of r the moment impulses; spinning about the contact normal is free. A cone
 /// with both pairs round. RollingBlock says which solution is taken where there are several.
 ///
-/// Units. With rolling rows in rad/s and N m s, mu_r is the length by which the normal force moves
-/// ahead in rolling [m]. These rows have other units than the first; solutions do not mind, but
-/// the residual of a problem (ResidualMeasure), a sum over rows, does. Give the rows one unit by
-/// a length L of the problem, such as the radius of the grains: spin times L [m/s], moment over L
-/// [N s], mu_r over L [-].
+/// In simulations of rigid bodies mu_r is a number [-]: contacts have rolling rows in the unit of
+/// the others, by a length L of each, the effective radius of its bodies, 1 / L = 1 / R_a + 1 /
+/// R_b [AiChenRotterOoi2011]. R is half the thickness of the shape (System::half_thickness): the
+/// radius of balls and capsules; obstacles count as flat (1 / R = 0), whatever their shape. The
+/// largest moment is mu_r L times the normal force, so a ball rests on slopes whose tangent is up
+/// to mu_r, whatever its radius, and on steeper ones rolls with g (sin - mu_r cos) / (1 + I / (m
+/// R^2)). Another L may be written into `rolling_length` of the Jacobian by a hook
+/// (NoHooks::matrices_known): r, u and mu_r are then of that.
 ///
-/// RollingCoulomb<3> is a law of the plane, not of space: problems of rigid bodies
-/// (ContactProblem), whose rows are those of space, do not take it; AssembledProblem and
-/// GlobalProblem do.
+/// In problems given by matrices with rolling rows in rad/s and N m s, mu_r is the length by which
+/// the normal force moves ahead in rolling [m]. These rows have other units than the first;
+/// solutions do not mind, but the residual of a problem (ResidualMeasure), a sum over rows, does.
+/// So give the rows one unit there too: spin times L [m/s], moment over L [N s], mu_r over L [-].
+///
+/// RollingCoulomb<3> is a law of the plane, not of space: RollingFriction<Dim> is that of a
+/// dimension.
 template <int Rows>
 requires RollingRows<Rows>
 struct RollingCoulomb {
-    static constexpr bool rolling_rows = true;
+    static constexpr bool rolling_rows = true, pushes_only = true;
 
     double mu = 0.0;    ///< friction coefficient [-], finite, not negative
-    double mu_r = 0.0;  ///< of rolling friction [m], or [-] (see above), finite, not negative
+    double mu_r = 0.0;  ///< of rolling friction [-], or [m] (see above), finite, not negative
 
     RollingBlock<Rows> prepare(const Matrix<Rows>& w) const { return RollingBlock<Rows>(w); }
 
@@ -58,5 +65,12 @@ struct RollingCoulomb {
     }
 };
 static_assert(PreparableLaw<RollingCoulomb<3>, 3> && PreparableLaw<RollingCoulomb<5>, 5>);
+
+/// Coulomb and rolling friction in the plane and in space: the Law of a Simulation<Dim>. Adaptors
+/// of it are of rows_with_rolling<Dim> rows, as WeightedMean<rows_with_rolling<Dim>,
+/// RollingFriction<Dim>>.
+template <int Dim>
+using RollingFriction = RollingCoulomb<rows_with_rolling<Dim>>;
+static_assert(BodyLaw<RollingFriction<2>, 2> && BodyLaw<RollingFriction<3>, 3>);
 
 }  // namespace talus

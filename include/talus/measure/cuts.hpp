@@ -126,12 +126,17 @@ struct CutResultant {
 /// other. A contact is divided by it if the line between the centres of its bodies is; of an
 /// obstacle, which has no centre that means anything, the contact point stands for it. `forces` are
 /// those of `contact_forces`: world axes, on body a [N]. Bodies themselves are not cut: over a
-/// surface of few contacts the result scatters by the force of one. O(contacts). Throws input_error
-/// unless there is one force per contact, and for contacts of bodies beyond the count.
+/// surface of few contacts the result scatters by the force of one. `couples`, where contacts
+/// transmit such beside forces (rolling friction: moment impulses over the duration of the step):
+/// on body a, world axes [N m]. O(contacts). Throws input_error unless there is one force per
+/// contact, and one couple or none at all, and for contacts of bodies beyond the count.
 template <int Dim, CutSurface<Dim> Surface>
 CutResultant<Dim> cut_resultant(const Bodies<Dim>& bodies, const ContactJacobian<Dim>& jacobian,
-                                std::span<const Vector<Dim>> forces, const Surface& surface) {
+                                std::span<const Vector<Dim>> forces, const Surface& surface,
+                                std::span<const AngularVector<Dim>> couples = {}) {
     require_count("forces", forces.size(), "contacts", jacobian.contact_count());
+    if (!couples.empty())
+        require_count("couples", couples.size(), "contacts", jacobian.contact_count());
     jacobian.require_bodies(bodies.count());
     CutResultant<Dim> result;
     for (std::size_t c = 0; c < forces.size(); ++c) {
@@ -147,6 +152,7 @@ CutResultant<Dim> cut_resultant(const Bodies<Dim>& bodies, const ContactJacobian
         result.force += force;
         const Vector<Dim> at = 0.5 * (on_a + on_b);
         result.moment += moment<Dim>(Vector<Dim>(at - surface.centre()), force);
+        if (!couples.empty()) result.moment += side * couples[c];
         result.along_normals += force.dot(Vector<Dim>(surface.normal_at(at)));
         ++result.contacts;
     }

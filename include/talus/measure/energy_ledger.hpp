@@ -38,13 +38,15 @@ struct EnergyFlows {
     double gyroscopic = 0.0;   ///< error of the gyroscopic term (zero for balls and in the plane)
     double correction = 0.0;   ///< position correction against gravity
     double exchange = 0.0;     ///< bodies that came, less those that went
+    double rolling = 0.0;      ///< moments of rolling friction on the relative spin
 
     double sum() const {
-        return friction + restitution + walls + applied + gyroscopic + correction + exchange;
+        return friction + restitution + walls + applied + gyroscopic + correction + exchange +
+               rolling;
     }
     double magnitude() const {
         return std::abs(friction) + std::abs(restitution) + std::abs(walls) + std::abs(applied) +
-               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange);
+               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange) + std::abs(rolling);
     }
 };
 
@@ -55,6 +57,7 @@ struct EnergyFlows {
 ///   T_end - T_begin = sum_c r_c . (U_c,begin + U_c,end)/2 - r_c . W_c
 ///                     + h F . (u_begin + u_end)/2
 ///
+/// (with the rolling rows of r, U and W, where a law has some)
 /// holds in every step to rounding (identity of the midpoint rule), so that what is missing at the
 /// end is rounding, or a fault.
 template <int Dim>
@@ -69,7 +72,8 @@ class EnergyLedger {
     }
 
     /// Books a step. `step` offers what `StepData` has: h, begin, end, applied, gyroscopic,
-    /// problem, impulse, contacts, correction_work; `bodies` is the state at the end of the step.
+    /// problem, impulse, contacts, correction_work, and `moment` where it knows rolling friction;
+    /// `bodies` is the state at the end of the step.
     /// Throws input_error if bodies have come or gone since the step.
     template <class Step>
     void record(const Step& step, const Bodies<Dim>& bodies) {
@@ -77,6 +81,7 @@ class EnergyLedger {
         if constexpr (requires { step.contacts.require_bodies(bodies.id); })
             step.contacts.require_bodies(bodies.id);
         record_contacts(step);
+        if constexpr (requires { step.moment; }) record_rolling(step);
         record_forces(step, bodies);
         flows_.correction += step.correction_work;
         look_at(bodies);
@@ -109,18 +114,20 @@ class EnergyLedger {
     /// To be carried through a checkpoint.
     void write(NumberRecord& out) const {
         out.array(gravity_);
-        for (const double x : {flows_.friction, flows_.restitution, flows_.walls, flows_.applied,
-                               flows_.gyroscopic, flows_.correction, flows_.exchange, kinetic_,
-                               kinetic_start_, potential_, potential_start_, largest_})
+        for (const double x :
+             {flows_.friction, flows_.restitution, flows_.walls, flows_.applied, flows_.gyroscopic,
+              flows_.correction, flows_.exchange, flows_.rolling, kinetic_, kinetic_start_,
+              potential_, potential_start_, largest_})
             out.real(x);
     }
     static EnergyLedger read(NumberRecordReader& in) {
         EnergyLedger books;
         books.gravity_ = in.array<Vector<Dim>>();
-        for (double* x : {&books.flows_.friction, &books.flows_.restitution, &books.flows_.walls,
-                          &books.flows_.applied, &books.flows_.gyroscopic, &books.flows_.correction,
-                          &books.flows_.exchange, &books.kinetic_, &books.kinetic_start_,
-                          &books.potential_, &books.potential_start_, &books.largest_})
+        for (double* x :
+             {&books.flows_.friction, &books.flows_.restitution, &books.flows_.walls,
+              &books.flows_.applied, &books.flows_.gyroscopic, &books.flows_.correction,
+              &books.flows_.exchange, &books.flows_.rolling, &books.kinetic_, &books.kinetic_start_,
+              &books.potential_, &books.potential_start_, &books.largest_})
             *x = in.real();
         return books;
     }
@@ -158,6 +165,21 @@ class EnergyLedger {
             flows_.friction += tangential(r).dot(tangential(u));
             if (a_is_obstacle) flows_.walls -= r.dot(u_a);
             if (w.linear[b] == 0.0) flows_.walls += r.dot(u_b);
+        }
+    }
+
+    template <class Step>
+    void record_rolling(const Step& step) {
+        const ContactJacobian<Dim>& j = step.problem.jacobian;
+        const auto& linear = step.problem.inverse_mass.linear;
+        for (std::size_t c = 0; c < step.moment.size(); ++c) {
+            const auto work = [&](BodyIndex body) {
+                const auto i = static_cast<std::size_t>(body);
+                return step.moment[c].dot(0.5 * (step.begin[i].angular + step.end[i].angular));
+            };
+            flows_.rolling += work(j.a[c]) - work(j.b[c]);
+            if (linear[static_cast<std::size_t>(j.a[c])] == 0.0) flows_.walls -= work(j.a[c]);
+            if (linear[static_cast<std::size_t>(j.b[c])] == 0.0) flows_.walls += work(j.b[c]);
         }
     }
 

@@ -24,9 +24,10 @@ void contact_forces(const ContactJacobian<Dim>& jacobian, std::span<const Vector
 /// Internal moment of every body about its centre, M = sum_c (x_c - x_G) f_c^T over its contacts
 /// [N m] ([Moreau1997]; Love-Weber). For a body in equilibrium under its contact forces alone it is
 /// symmetric and the same about any point; for one that moves, x_G takes the inertia force out and
-/// M - M^T is the torque. The mean stress of a set of bodies is the sum of their moments over the
-/// volume of the set; compression is negative. Throws input_error for a contact of a body beyond
-/// the count.
+/// M - M^T is the torque of the forces. (Couples of rolling friction are no part of M: at rest M -
+/// M^T then balances theirs.) The mean stress of a set of bodies is the sum of their moments over
+/// the volume of the set; compression is negative. Throws input_error for a contact of a body
+/// beyond the count.
 template <int Dim>
 void internal_moments(const ContactJacobian<Dim>& jacobian, std::span<const Vector<Dim>> forces,
                       std::size_t body_count, std::vector<Matrix<Dim>>& moments) {

@@ -30,6 +30,10 @@ struct ContactJacobian {
     /// Where a surface moves otherwise than its shape (PrescribedMotion::belt): the normal velocity
     /// of a relative to b by the shapes, less that by the surfaces [m/s]. Empty where none does.
     Column<double> held;
+    /// Of contacts that know rolling: the length by which their rolling rows have the unit of the
+    /// others, u_m = L (axes . (w_a - w_b)) [m/s] and moment = L (axes^T r_m) [N m], with the
+    /// `rolling_axes` of the frame, positive [m]. Empty where none does.
+    Column<double> rolling_length;
 
     std::size_t contact_count() const { return a.size(); }
     /// Throws input_error unless all contacts are of bodies with an index below `count`.
@@ -48,6 +52,7 @@ struct ContactJacobian {
         detail::make_room(arm_a, n);
         detail::make_room(arm_b, n);
         if (!held.empty()) detail::make_room(held, n);
+        if (!rolling_length.empty()) detail::make_room(rolling_length, n);
     }
     void resize(std::size_t n) {
         a.resize(n);
@@ -56,6 +61,7 @@ struct ContactJacobian {
         arm_a.resize(n);
         arm_b.resize(n);
         if (!held.empty()) held.resize(n);
+        if (!rolling_length.empty()) rolling_length.resize(n);
     }
 };
 
@@ -83,15 +89,17 @@ struct InverseMass {
 };
 
 /// The whole input of a contact solver:  u = W r + free_velocity,  W = H^T M^-1 H,  and for every
-/// contact its law between u and r. Knows nothing of shapes, time or step size.
-template <int Dim, ContactLaw<Dim> Law>
-requires(SpaceDimension<Dim> && !has_rolling_rows<Law>) struct ContactProblem {
+/// contact its law between u and r. Knows nothing of shapes, time or step size. With a law that
+/// knows rolling, u and r have the rolling rows as well (law_rows).
+template <int Dim, BodyLaw<Dim> Law>
+requires SpaceDimension<Dim>
+struct ContactProblem {
     InverseMass<Dim> inverse_mass;
     ContactJacobian<Dim> jacobian;
     /// u_free: the relative velocity that the step would end with if all impulses were zero, the
     /// prescribed motion of obstacles (the term W of the paper) and restitution shifts included
     /// [m/s].
-    Column<Vector<Dim>> free_velocity;
+    Column<Vector<law_rows<Law, Dim>>> free_velocity;
     Column<Law> laws;
 
     std::size_t contact_count() const { return free_velocity.size(); }

@@ -48,9 +48,12 @@ bool has_scalar_inertia(const InverseMass<Dim>& m) {
 /// bodies are packed in one line each (in space 64 bytes with scalar inertia: one cache line, 128
 /// with a tensor), so that a sweep reads contacts as a stream. The arithmetic is written out by
 /// components: packed in pairs, vectors of three cost more in shuffles and waits than they save.
-template <int Dim, class Inertia = AngularMatrix<Dim>>
-requires std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, double>
-class DelassusProduct {
+///
+/// `Rows` of a contact: those of space, or the rolling ones as well (rows_with_rolling); the
+/// jacobian then has their lengths.
+template <int Dim, class Inertia = AngularMatrix<Dim>, int Rows = Dim>
+requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, double>) &&
+    (Rows == Dim || Rows == rows_with_rolling<Dim>)class DelassusProduct {
   public:
     DelassusProduct() = default;
     DelassusProduct(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
@@ -82,23 +85,20 @@ class DelassusProduct {
     }
 
     /// W_ii, exactly symmetric.
-    Matrix<Dim> diagonal_block(std::size_t i) const {
+    Matrix<Rows> diagonal_block(std::size_t i) const {
         const Row c = row(i);
-        Matrix<Dim> world = Matrix<Dim>::Zero();
-        for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
-            const Body& x = bodies_[static_cast<std::size_t>(body)];
-            const SmallMatrix<rotation_dof<Dim>, Dim> lever = moment_matrix<Dim>(arm);
-            Matrix<Dim> mobility = Matrix<Dim>::Zero();
-            for (int d = 0; d < Dim; ++d) mobility(d, d) = along(x, d);
-            world += mobility + lever.transpose() * (x.inverse_inertia * lever);
+        if constexpr (rolls) {
+            const Matrix<Rows> w = rolling_block(c);
+            return 0.5 * (w + w.transpose());
+        } else {
+            const Matrix<Dim> w = block_of_space(c);
+            return 0.5 * (w + w.transpose());
         }
-        const Matrix<Dim> w = c.frame * world * c.frame.transpose();
-        return 0.5 * (w + w.transpose());
     }
 
     /// u = W r, for impulses that need not be the ones followed. Not for concurrent use of one
     /// operator: the body velocities it needs are kept from call to call.
-    void multiply(std::span<const Vector<Dim>> r, std::span<Vector<Dim>> u) const {
+    void multiply(std::span<const Vector<Rows>> r, std::span<Vector<Rows>> u) const {
         TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
         TALUS_CHECK(u.size() == contact_count(), "one velocity per contact");
         scratch_ = bodies_;
@@ -136,26 +136,31 @@ class DelassusProduct {
     }
 
     /// Velocities of the impulses `r`, computed afresh.
-    void start(std::span<const Vector<Dim>> r) {
+    void start(std::span<const Vector<Rows>> r) {
         TALUS_CHECK(r.size() == contact_count(), "one impulse per contact");
         accumulate(r, bodies_);
     }
 
     /// Row i of W r for the present impulses [m/s].
-    Vector<Dim> velocity(std::size_t i) const { return velocity(row(i), bodies_); }
+    Vector<Rows> velocity(std::size_t i) const { return velocity(row(i), bodies_); }
 
     /// r_i += dr.
-    void add(std::size_t i, const Vector<Dim>& dr) { add(row(i), dr, bodies_); }
+    void add(std::size_t i, const Vector<Rows>& dr) { add(row(i), dr, bodies_); }
 
   private:
+    static constexpr bool rolls = Rows != Dim;
     struct Row {
         const Matrix<Dim>& frame;
         const Vector<Dim>&arm_a, &arm_b;
         BodyIndex a, b;
+        double rolling_length = 0.0;
     };
     Row row(std::size_t i) const {
         const ContactJacobian<Dim>& j = *jacobian_;
-        return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i]};
+        if constexpr (rolls)
+            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i], j.rolling_length[i]};
+        else
+            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i]};
     }
     /// Axes are locked in the plane, where there is room for it, and beside tensors.
     using Mobility = std::conditional_t<std::same_as<Inertia, double> && rotation_dof<Dim> != 1,
@@ -173,28 +178,71 @@ class DelassusProduct {
             return x.inverse_mass[d];
     }
 
-    static Vector<Dim> velocity(const Row& c, const Column<Body>& bodies) {
+    /// The rows of space of W_ii.
+    Matrix<Dim> block_of_space(const Row& c) const {
+        Matrix<Dim> world = Matrix<Dim>::Zero();
+        for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
+            const Body& x = bodies_[static_cast<std::size_t>(body)];
+            const SmallMatrix<rotation_dof<Dim>, Dim> lever = moment_matrix<Dim>(arm);
+            Matrix<Dim> mobility = Matrix<Dim>::Zero();
+            for (int d = 0; d < Dim; ++d) mobility(d, d) = along(x, d);
+            world += mobility + lever.transpose() * (x.inverse_inertia * lever);
+        }
+        return c.frame * world * c.frame.transpose();
+    }
+    Matrix<Rows> rolling_block(const Row& c) const {
+        const auto axes = (c.rolling_length * rolling_axes<Dim>(c.frame)).eval();
+        Matrix<Rows> w;
+        w.setZero();
+        w.template topLeftCorner<Dim, Dim>() = block_of_space(c);
+        for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
+            const Body& x = bodies_[static_cast<std::size_t>(body)];
+            const auto turn = (x.inverse_inertia * axes.transpose()).eval();  // by unit moments
+            const auto shift = (c.frame * moment_matrix<Dim>(arm).transpose() * turn).eval();
+            w.template topRightCorner<Dim, Dim - 1>() += shift;
+            w.template bottomLeftCorner<Dim - 1, Dim>() += shift.transpose();
+            w.template bottomRightCorner<Dim - 1, Dim - 1>() += axes * turn;
+        }
+        return w;
+    }
+
+    static Vector<Rows> velocity(const Row& c, const Column<Body>& bodies) {
         const Body& a = bodies[static_cast<std::size_t>(c.a)];
         const Body& b = bodies[static_cast<std::size_t>(c.b)];
         const Vector<Dim> turning_a = cross<Dim>(a.angular, c.arm_a);
         const Vector<Dim> turning_b = cross<Dim>(b.angular, c.arm_b);
-        Vector<Dim> world, u;
+        Vector<Dim> world;
+        Vector<Rows> u;
         for (int d = 0; d < Dim; ++d)
             world[d] = (a.linear[d] - b.linear[d]) + (turning_a[d] - turning_b[d]);
         for (int k = 0; k < Dim; ++k) {
             u[k] = c.frame(k, 0) * world[0];
             for (int d = 1; d < Dim; ++d) u[k] += c.frame(k, d) * world[d];
         }
+        if constexpr (rolls)
+            u.template tail<Dim - 1>() =
+                c.rolling_length * (rolling_axes<Dim>(c.frame) * (a.angular - b.angular));
         return u;
     }
-    static void add(const Row& c, const Vector<Dim>& dr, Column<Body>& bodies) {
+    static void add(const Row& c, const Vector<Rows>& dr, Column<Body>& bodies) {
         Vector<Dim> impulse;
         for (int d = 0; d < Dim; ++d) {
             impulse[d] = c.frame(0, d) * dr[0];
             for (int k = 1; k < Dim; ++k) impulse[d] += c.frame(k, d) * dr[k];
         }
-        push(bodies[static_cast<std::size_t>(c.a)], 1.0, impulse, c.arm_a);
-        push(bodies[static_cast<std::size_t>(c.b)], -1.0, impulse, c.arm_b);
+        const auto turn = [&](const Vector<Dim>& arm) {
+            if constexpr (rolls)
+                return AngularVector<Dim>(moment<Dim>(arm, impulse) + couple(c, dr));
+            else
+                return moment<Dim>(arm, impulse);
+        };
+        push(bodies[static_cast<std::size_t>(c.a)], 1.0, impulse, turn(c.arm_a));
+        push(bodies[static_cast<std::size_t>(c.b)], -1.0, impulse, turn(c.arm_b));
+    }
+    /// The moment impulse of rolling friction, world axes.
+    static AngularVector<Dim> couple(const Row& c, const Vector<Rows>& dr) {
+        const Vector<Dim - 1> rolling = c.rolling_length * dr.template tail<Dim - 1>();
+        return rolling_axes<Dim>(c.frame).transpose() * rolling;
     }
     /// Component d of I^-1 m. By components, for the same reason as `unpaired`.
     static double turned(const Body& x, const AngularVector<Dim>& moment, int d) {
@@ -206,14 +254,14 @@ class DelassusProduct {
             return sum;
         }
     }
-    static void push(Body& x, double sign, const Vector<Dim>& impulse, const Vector<Dim>& arm) {
-        const AngularVector<Dim> turn = moment<Dim>(arm, impulse);
+    static void push(Body& x, double sign, const Vector<Dim>& impulse,
+                     const AngularVector<Dim>& turn) {
         for (int d = 0; d < Dim; ++d)
             x.linear[d] = detail::unpaired(x.linear[d] + (sign * along(x, d)) * impulse[d]);
         for (int d = 0; d < rotation_dof<Dim>; ++d)
             x.angular[d] = detail::unpaired(x.angular[d] + sign * turned(x, turn, d));
     }
-    void accumulate(std::span<const Vector<Dim>> r, Column<Body>& bodies) const {
+    void accumulate(std::span<const Vector<Rows>> r, Column<Body>& bodies) const {
         for (Body& x : bodies) {
             x.linear.setZero();
             x.angular.setZero();
@@ -230,9 +278,10 @@ class DelassusProduct {
 };
 static_assert(SweepableDelassus<DelassusProduct<2>, 2> && SweepableDelassus<DelassusProduct<3>, 3>);
 static_assert(SweepableDelassus<DelassusProduct<3, double>, 3>);
+static_assert(SweepableDelassus<DelassusProduct<2, double, 3>, 3>);
 
 /// The operators of problems of rigid bodies, which a solver keeps between solves.
-template <int Dim>
+template <int Dim, int Rows = Dim>
 class RigidBodyOperators {
   public:
     /// Takes a new problem in, at zero impulses, keeping a reference to `jacobian`; returns f(W)
@@ -251,8 +300,8 @@ class RigidBodyOperators {
     }
 
   private:
-    DelassusProduct<Dim> tensor_;
-    DelassusProduct<Dim, double> scalar_;
+    DelassusProduct<Dim, AngularMatrix<Dim>, Rows> tensor_;
+    DelassusProduct<Dim, double, Rows> scalar_;
 };
 
 }  // namespace talus

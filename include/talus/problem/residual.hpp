@@ -323,15 +323,17 @@ class ResidualMeasure {
 /// with, without which a jam with loads of rounding alone is not told from impulses without end.
 /// Throws input_error unless there is one impulse per contact.
 template <int Dim, class Law>
-Residual residual(const ContactProblem<Dim, Law>& problem, std::span<const Vector<Dim>> r,
-                  std::span<const Vector<Dim>> start = {}) {
+Residual residual(const ContactProblem<Dim, Law>& problem,
+                  std::span<const Vector<law_rows<Law, Dim>>> r,
+                  std::span<const Vector<law_rows<Law, Dim>>> start = {}) {
+    constexpr int rows = law_rows<Law, Dim>;
+    using W = DelassusProduct<Dim, AngularMatrix<Dim>, rows>;
     require_count("impulses", r.size(), "contacts", problem.contact_count());
     if (!start.empty())
         require_count("impulses of the start", start.size(), "contacts", problem.contact_count());
-    DelassusProduct<Dim> w(problem.jacobian, problem.inverse_mass);
-    ResidualMeasure<Dim> measure;
-    measure.template prepare<DelassusProduct<Dim>, Law>(w, problem.free_velocity, problem.laws,
-                                                        start);
+    W w(problem.jacobian, problem.inverse_mass);
+    ResidualMeasure<rows> measure;
+    measure.template prepare<W, Law>(w, problem.free_velocity, problem.laws, start);
     w.start(r);
     return measure.template evaluate<Law>(problem.free_velocity, problem.laws, r,
                                           [&](std::size_t i) { return w.velocity(i); });

@@ -32,7 +32,7 @@ concept FormsSolver = ContactSolver<S, Dim, Law> && std::copyable<S> &&
 
 /// Any solver, chosen at run time: the Solver of a Simulation, say. Behaves as the solver it was
 /// made of, at the cost of a virtual call per solve. Copies are independent of each other.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 class AnySolver {
   public:
     // Asked in this order: the second question, of an AnySolver, would come back to the first.
@@ -124,7 +124,7 @@ struct SolverName {
 ///     extern template struct talus::SolverRegistry<3, Law>;
 ///
 /// and one file includes solver_registry.hpp and says the same without `extern`.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 struct SolverRegistry {
     /// Those that take the law: the ones that treat all contacts at once need a ConeLaw.
     static std::span<const SolverName> names();
@@ -133,13 +133,13 @@ struct SolverRegistry {
 };
 
 /// The solvers that take a law, in the order in which to try them.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 std::span<const SolverName> solver_names() {
     return SolverRegistry<Dim, Law>::names();
 }
 
 /// The solver of that name. Throws input_error that lists those there are.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 AnySolver<Dim, Law> make_solver(std::string_view name, SolverSettings settings = {}) {
     return SolverRegistry<Dim, Law>::make(name, settings);
 }

@@ -56,7 +56,7 @@ struct AutomaticParams {
 /// factorisations are in neither, but within `max_factorizations`). `no_solution` is reported where
 /// there is a certificate: normal impulses that move nothing and yet would gain energy from the
 /// prescribed motion, so that no motion separates all contacts.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 class Automatic {
   public:
     explicit Automatic(AutomaticParams params = {}) : params(params) {}
@@ -329,7 +329,7 @@ class Automatic {
 
 // Not inline, so that `extern template class` spares a user all of it.
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 const SolveReport& Automatic<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
                                               std::span<Vector<Dim>> r) {
     const auto solve_with = [&](auto& w) -> const SolveReport& {
@@ -342,14 +342,14 @@ const SolveReport& Automatic<Dim, Law>::solve(const ContactProblem<Dim, Law>& pr
     return bodies_.with(problem.jacobian, problem.inverse_mass, solve_with);
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 const SolveReport& Automatic<Dim, Law>::solve(DelassusSparse<Dim>& w,
                                               std::span<const Vector<Dim>> free_velocity,
                                               std::span<const Law> laws, std::span<Vector<Dim>> r) {
     return run(Task<DelassusSparse<Dim>>{{w, free_velocity, laws, r}, sweep_visits(w), &w});
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 const SolveReport& Automatic<Dim, Law>::solve(DelassusGlobal<Dim>& w,
                                               std::span<const Vector<Dim>> free_velocity,
                                               std::span<const Law> laws, std::span<Vector<Dim>> r) {

@@ -13,7 +13,7 @@ namespace talus {
 /// throws for want of convergence and never reports `converged` at an iteration cap.
 template <class S, int Dim, class Law>
 concept ContactSolver = requires(S& solver, const ContactProblem<Dim, Law>& problem,
-                                 std::span<Vector<Dim>> r) {
+                                 std::span<Vector<law_rows<Law, Dim>>> r) {
     { solver.solve(problem, r) } -> std::convertible_to<const SolveReport&>;
 };
 

@@ -24,7 +24,7 @@
 namespace talus {
 
 /// A problem that Automatic solves, and its impulses.
-template <int Dim, ContactLaw<Dim> Law, class W>
+template <int Dim, LawWithoutRolling<Dim> Law, class W>
 struct AutomaticTask : SweepTask<Dim, Law, W> {
     double visits;  ///< of contacts in a sweep
     /// What a ConeSystem takes of W: the bodies it is made of, or its blocks where none are known.
@@ -35,7 +35,7 @@ struct AutomaticTask : SweepTask<Dim, Law, W> {
 /// The engines of Automatic that treat all contacts at once, on one problem that they all see in
 /// the same scaled form. Empty for laws that have no cone: nothing of these engines is compiled
 /// then.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 class ConeTeam {};
 
 template <int Dim, ConeLaw<Dim> Law>

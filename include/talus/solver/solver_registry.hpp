@@ -64,7 +64,7 @@ constexpr RegistryEntry<Dim, Law> entry(std::string_view name, std::string_view 
 }
 
 /// The registry: a solver is a line.
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 constexpr auto registry_entries() {
     const std::array any_law{
         entry<Dim, Law, Automatic<Dim, Law>>(
@@ -103,7 +103,7 @@ constexpr auto registry_entries() {
 
 }  // namespace detail
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 std::span<const SolverName> SolverRegistry<Dim, Law>::names() {
     // One array per law, in static memory: spans of it stay valid.
     static constexpr auto names = [] {
@@ -115,7 +115,7 @@ std::span<const SolverName> SolverRegistry<Dim, Law>::names() {
     return names;
 }
 
-template <int Dim, ContactLaw<Dim> Law>
+template <int Dim, LawWithoutRolling<Dim> Law>
 AnySolver<Dim, Law> SolverRegistry<Dim, Law>::make(std::string_view name, SolverSettings settings) {
     require_non_negative("tolerance", settings.tolerance);
     require_non_negative("max_iterations", settings.max_iterations.value_or(0));

@@ -240,7 +240,7 @@ requires ContactSolver<Solver, Dim, Law> EquilibriumReport<Dim, Law> equilibrium
 template <int Dim, class Law, class ShapeType>
 EquilibriumReport<Dim, Law> equilibrium(System<Dim, Law, ShapeType> system,
                                         const EquilibriumParams& params = {}) {
-    AcceleratedGaussSeidel<Dim, Law> solver(
+    AcceleratedGaussSeidel<law_rows<Law, Dim>, Law> solver(
         {.max_iterations = 50000, .tolerance = 1e-4 * params.rest});
     return equilibrium(std::move(system), params, std::move(solver));
 }

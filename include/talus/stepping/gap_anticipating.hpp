@@ -35,8 +35,9 @@ inline double anticipated_velocity(double gap, double h) { return std::max(gap, 
 /// surface would take the velocity that restitution has to return.
 template <int Dim, class Law>
 bool bounces(const Law& law) {
-    if constexpr (RestitutionLaw<Law, Dim>) {
-        Vector<Dim> approach = Vector<Dim>::Zero();
+    constexpr int rows = law_rows<Law, Dim>;
+    if constexpr (RestitutionLaw<Law, rows>) {
+        Vector<rows> approach = Vector<rows>::Zero();
         approach[0] = -1.0;
         return law.restitution_shift(approach)[0] != 0.0;
     } else {
@@ -50,9 +51,10 @@ namespace detail {
 /// [N s].
 template <int Dim, class Law>
 double pull(const Law& law, double v) {
-    Vector<Dim> parting = Vector<Dim>::Zero();
+    constexpr int rows = law_rows<Law, Dim>;
+    Vector<rows> parting = Vector<rows>::Zero();
     parting[0] = v;
-    return -law.natural_map(parting, Vector<Dim>::Zero(), 1.0)[0];
+    return -law.natural_map(parting, Vector<rows>::Zero(), 1.0)[0];
 }
 
 }  // namespace detail

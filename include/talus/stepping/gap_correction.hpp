@@ -83,6 +83,13 @@ class GapCorrection {
             work += 0.5 * data.impulse[c].dot(
                               relative_velocity<Dim>(data.problem.jacobian, c, data.begin) +
                               relative_velocity<Dim>(data.problem.jacobian, c, data.end));
+        if constexpr (has_rolling_rows<Law>)
+            for (std::size_t c = 0; c < data.contact_count(); ++c) {
+                const auto a = static_cast<std::size_t>(data.problem.jacobian.a[c]);
+                const auto b = static_cast<std::size_t>(data.problem.jacobian.b[c]);
+                work += 0.5 * data.moment[c].dot(data.begin[a].angular - data.begin[b].angular +
+                                                 data.end[a].angular - data.end[b].angular);
+            }
         return -work;
     }
 

@@ -7,6 +7,7 @@
 #include <talus/assembly/contact_jacobian.hpp>
 #include <talus/assembly/contact_velocities.hpp>
 #include <talus/assembly/free_velocity.hpp>
+#include <talus/assembly/rolling_rows.hpp>
 #include <talus/collision/hierarchical_grid.hpp>
 #include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
@@ -38,7 +39,7 @@ namespace talus {
 ///   u_free = u_begin + h A^-1 F(t_mid, q_mid, u_begin)
 ///   law( mean of U_begin and U_end , r )  for every active contact,  u_end = u_free + A^-1 G^T r
 ///   q_end  = q_mid + (h/2) u_end
-template <int Dim, ContactLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad,
+template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad,
           class Hooks = NoHooks>
 class MoreauMidpoint {
   public:
@@ -55,8 +56,7 @@ class MoreauMidpoint {
               Solver& solver, Data& data) {
         pose_problem(system, t_begin, h, params, data);
         try {
-            const SolveReport& report =
-                solver.solve(data.problem, std::span<Vector<Dim>>(data.impulse));
+            const SolveReport& report = solver.solve(data.problem, data.solution());
             // As much room as the solver has: no history needs more.
             data.report.history.reserve(report.history.capacity());
             data.report = report;
@@ -67,9 +67,9 @@ class MoreauMidpoint {
         }
     }
 
-    /// The first half of a step, up to what a solver is given: the problem, and in `data.impulse`
-    /// what it starts from. Free bodies are left at q_mid, and the system within a step: `complete`
-    /// or `undo` must follow. Throws as `step` does.
+    /// The first half of a step, up to what a solver is given: the problem, and in
+    /// `data.solution()` what it starts from. Free bodies are left at q_mid, and the system within
+    /// a step: `complete` or `undo` must follow. Throws as `step` does.
     void pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
                       Data& data);
     /// The second half, from the impulses that a solver found and what it says of them in
@@ -92,6 +92,7 @@ class MoreauMidpoint {
     void move_to_midpoint(SystemType& system, Data& data);
     void detect(const SystemType& system, const StepParams& params, Data& data);
     void hold_moving_surfaces(const SystemType& system, Data& data);
+    void measure_rolling(const SystemType& system, Data& data);
     void evaluate_forces(SystemType& system, const StepParams& params, Data& data);
     void assemble_contacts(const SystemType& system, const StepParams& params, Data& data);
     bool rests(const Data& data, std::size_t c) const;
@@ -106,6 +107,7 @@ class MoreauMidpoint {
     Column<double> fall_, reach_;         // by body
     Column<Twist<Dim>> motion_;           // over one step; empty where nothing is anticipated
     Column<Twist<Dim>> excess_;           // shape less surface, by body
+    Column<double> rolling_radius_;       // by body; empty for laws without rolling friction
     double time_before_ = 0.0;
     [[no_unique_address]] Hooks hooks_;
 };
@@ -113,9 +115,8 @@ class MoreauMidpoint {
 // The bodies stand apart from the class, so that `extern template` can keep them from being
 // compiled in every file: what is defined within a class is inline, and is made anyway.
 
-#define TALUS_OF_STEP                                                                    \
-    template <int Dim, ContactLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad, \
-              class Hooks>                                                               \
+#define TALUS_OF_STEP                                                                              \
+    template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad, class Hooks> \
     void MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks>
 
 TALUS_OF_STEP::pose_problem(SystemType& system, double t_begin, double h, const StepParams& params,
@@ -148,12 +149,16 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     detect(system, params, data);
     assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
     hold_moving_surfaces(system, data);
+    measure_rolling(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
     hooks_.matrices_known(system, data);
     hooks_.forces_known(system, data);
     assemble_contacts(system, params, data);
     warm_start_.recall(data);
     hooks_.problem_known(system, data);
+    if constexpr (has_rolling_rows<Law>)
+        join_rolling_rows<Dim>(data.problem.jacobian, data.impulse, data.moment,
+                               data.solver_impulses.r);
 }
 
 TALUS_OF_STEP::complete(SystemType& system, Data& data) {
@@ -161,11 +166,16 @@ TALUS_OF_STEP::complete(SystemType& system, Data& data) {
     // the next solve would take its loads for what such impulses have left of zero. (Those of a jam
     // are as large, and solve it.)
     constexpr double out_of_proportion = 1e-7;
+    if constexpr (has_rolling_rows<Law>)
+        part_rolling_rows<Dim>(data.problem.jacobian, data.solver_impulses.r, data.impulse,
+                               data.moment);
     warm_start_.store(data, data.report.status == SolveStatus::converged ||
                                 !(data.report.rounding > out_of_proportion));
     hooks_.solved(system, data);
     data.end = data.free;
     apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
+    if constexpr (has_rolling_rows<Law>)
+        apply_moments<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.moment, data.end);
     hooks_.velocities_known(system, data);
     finish(system, data);
     hooks_.finished(system, data);
@@ -273,6 +283,18 @@ TALUS_OF_STEP::hold_moving_surfaces(const SystemType& system, Data& data) {
     if (!excess_.empty()) hold_surfaces<Dim>(excess_, data.problem.jacobian);
 }
 
+/// Lengths of the rolling rows, for laws that have some. An obstacle counts as flat, whatever its
+/// shape: how large a floor is says nothing of how round it is.
+TALUS_OF_STEP::measure_rolling(const SystemType& system, Data& data) {
+    if constexpr (has_rolling_rows<Law>) {
+        rolling_radius_.assign(system.half_thickness());
+        for (std::size_t i = 0; i < system.bodies.count(); ++i)
+            if (system.bodies.is_obstacle(i))
+                rolling_radius_[i] = std::numeric_limits<double>::infinity();
+        assemble_rolling_lengths<Dim>(rolling_radius_, data.problem.jacobian);
+    }
+}
+
 TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Data& data) {
     const Bodies<Dim>& bodies = system.bodies;
     const std::size_t n = bodies.count();
@@ -329,7 +351,7 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
 
 /// Whether a contact approaches no faster than loads alone make it within a step: it has no speed
 /// to return.
-template <int Dim, ContactLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad, class Hooks>
+template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad, class Hooks>
 bool MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks>::rests(const Data& data,
                                                               std::size_t c) const {
     const ContactKey& key = data.contacts.key[c];

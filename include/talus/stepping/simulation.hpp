@@ -52,7 +52,7 @@ class Simulation {
     using Broad = typename Types::BroadPhase;
     using Hooks = typename Types::Hooks;
     using Correction = typename Types::GapCorrection;
-    static_assert(ContactLaw<Law, Dim>, "Types::Law must be a ContactLaw");
+    static_assert(ContactLaw<Law, law_rows<Law, Dim>>, "Types::Law must be a ContactLaw");
     static_assert(ContactSolver<Solver, Dim, Law>,
                   "Types::Solver must be a ContactSolver for Types::Law");
     static_assert(BroadPhase<Broad, Dim>, "Types::BroadPhase must be a BroadPhase");

@@ -55,7 +55,9 @@ concept PositionCorrection = requires(C& correction, SystemType& system, Data& d
 ///     };
 ///     Simulation<3, Mine> sim({Coulomb<3>{.mu = 0.4}});
 ///
-/// (In a template for both dimensions the law is `typename SimulationTypes<Dim>::Law`.)
+/// (In a template for both dimensions the law is `typename SimulationTypes<Dim>::Law`.) Of a law
+/// with rolling friction, GaussSeidel and AcceleratedGaussSeidel are solvers, for its law_rows in
+/// place of `Dim`.
 template <int Dim>
 requires SpaceDimension<Dim>
 struct SimulationTypes {
@@ -69,9 +71,10 @@ struct SimulationTypes {
 
 /// The solver that such types ask for.
 template <int Dim, class Types>
-using SolverOf =
-    std::conditional_t<std::same_as<typename Types::Solver, DefaultSolver>,
-                       AcceleratedGaussSeidel<Dim, typename Types::Law>, typename Types::Solver>;
+using SolverOf = std::conditional_t<
+    std::same_as<typename Types::Solver, DefaultSolver>,
+    AcceleratedGaussSeidel<law_rows<typename Types::Law, Dim>, typename Types::Law>,
+    typename Types::Solver>;
 /// One with its own defaults, or with those of DefaultSolver.
 template <int Dim, class Types>
 SolverOf<Dim, Types> default_solver() {

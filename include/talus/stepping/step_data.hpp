@@ -13,6 +13,19 @@
 
 namespace talus {
 
+namespace detail {
+
+/// The impulses of all contacts as a solver sees them, where these are no longer those of StepData:
+/// with rolling rows.
+template <int Dim, int Rows>
+struct SolverImpulses {
+    Column<Vector<Rows>> r;
+};
+template <int Dim>
+struct SolverImpulses<Dim, Dim> {};
+
+}  // namespace detail
+
 /// Everything one step computed, in the order of its stages: what observers read. Memory is reused
 /// from step to step.
 template <int Dim, class Law>
@@ -34,13 +47,33 @@ struct StepData {
     ContactSet<Dim> contacts;          ///< at the midpoint configuration
     ContactProblem<Dim, Law> problem;  ///< what the solver was given
     Column<Vector<Dim>> impulse;       ///< r, local axes [N s]
-    std::size_t recalled = 0;          ///< contacts that began with a remembered impulse
+    /// Moment impulses of rolling friction on the first body of each contact, world axes [N m s];
+    /// empty for laws without.
+    Column<AngularVector<Dim>> moment;
+    std::size_t recalled = 0;  ///< contacts that began with a remembered impulse
     SolveReport report;
 
     /// Mechanical energy that a gap correction gave to gravity in this step [J].
     double correction_work = 0.0;
 
     std::size_t contact_count() const { return contacts.count(); }
+
+    /// r with all rows of the problem, as a solver takes and leaves it: `impulse` itself or, with
+    /// rolling friction, an array beside it, which steps fill from `impulse` and `moment` before a
+    /// solve and read into them after it.
+    std::span<Vector<law_rows<Law, Dim>>> solution() { return solver_rows(*this); }
+    std::span<const Vector<law_rows<Law, Dim>>> solution() const { return solver_rows(*this); }
+
+    [[no_unique_address]] detail::SolverImpulses<Dim, law_rows<Law, Dim>> solver_impulses;
+
+  private:
+    template <class Data>
+    static auto& solver_rows(Data& data) {
+        if constexpr (has_rolling_rows<Law>)
+            return data.solver_impulses.r;
+        else
+            return data.impulse;
+    }
 };
 
 }  // namespace talus

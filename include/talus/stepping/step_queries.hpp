@@ -61,6 +61,17 @@ Vector<Dim> contact_impulse(const StepData<Dim, Law>& data, std::size_t c) {
     return data.problem.jacobian.frame[c].transpose() * data.impulse[c];
 }
 
+/// Moment impulse of rolling friction at contact c on its first body (key.a), world axes [N m s];
+/// on the other it is the opposite. Zero for laws without.
+template <int Dim, class Law>
+AngularVector<Dim> contact_moment(const StepData<Dim, Law>& data, std::size_t c) {
+    TALUS_CHECK(c < data.contact_count(), "a contact of this step");
+    if constexpr (has_rolling_rows<Law>)
+        return data.moment[c];
+    else
+        return AngularVector<Dim>::Zero();
+}
+
 /// Relative velocity U_end of contact c, of its first body (key.a) against the other, local axes,
 /// the normal first [m/s].
 template <int Dim, class Law>
@@ -82,6 +93,10 @@ Wrench<Dim> wrench_impulse_on(const StepData<Dim, Law>& data, BodyIndex body, Co
             sum += Wrench<Dim>::at(jacobian.arm_a[c], contact_impulse(data, c));
         else if (b == body && counts(a))
             sum += Wrench<Dim>::at(jacobian.arm_b[c], Vector<Dim>(-contact_impulse(data, c)));
+        else
+            continue;
+        if constexpr (has_rolling_rows<Law>)
+            sum.torque += a == body ? data.moment[c] : AngularVector<Dim>(-data.moment[c]);
     }
     return sum;
 }

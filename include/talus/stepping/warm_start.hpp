@@ -32,15 +32,19 @@ class WarmStart {
     template <class Law>
     void recall(StepData<Dim, Law>& data) const {
         data.impulse.resize(data.contact_count());
-        data.recalled = cache_.recall(data.contacts, data.problem.jacobian, data.impulse,
-                                      last_h_ > 0.0 ? data.h / last_h_ : 1.0);
+        data.recalled =
+            cache_.recall(data.contacts, data.problem.jacobian, data.impulse, scale_of(data));
+        if constexpr (has_rolling_rows<Law>) {
+            data.moment.resize(data.contact_count());
+            cache_.recall_moments(data.contacts, data.moment, scale_of(data));
+        }
     }
     /// The impulses of a step that was solved, or, if `worth` is false, none; `keep` makes them
     /// those remembered.
     template <class Law>
     void store(const StepData<Dim, Law>& data, bool worth) {
         next_.clear();
-        if (worth) next_.store(data.contacts, data.problem.jacobian, data.impulse);
+        if (worth) next_.store(data.contacts, data.problem.jacobian, data.impulse, data.moment);
     }
     void keep(double of_step) noexcept {
         std::swap(cache_, next_);
@@ -59,6 +63,7 @@ class WarmStart {
         renumber(cache, state.bodies);
         state.key.assign(cache.keys().begin(), cache.keys().end());
         state.impulse.assign(cache.impulses().begin(), cache.impulses().end());
+        state.moment.assign(cache.moments().begin(), cache.moments().end());
         state.last_h = last_h_;
     }
     /// That of a state, whose bodies are those of the next step. Throws input_error, and remembers
@@ -74,12 +79,17 @@ class WarmStart {
                     detail::numbered(", but must be of two below", state.bodies.count()));
         require_non_negative("last step size", state.last_h);
         remembered_.reserve(state.bodies.count());
-        cache_.assign(state.key, state.impulse);
+        cache_.assign(state.key, state.impulse, state.moment);
         remembered_ = state.bodies.id;
         last_h_ = state.last_h;
     }
 
   private:
+    /// Of the impulses remembered, in a step of another size.
+    template <class Law>
+    double scale_of(const StepData<Dim, Law>& data) const {
+        return last_h_ > 0.0 ? data.h / last_h_ : 1.0;
+    }
     void renumber(ImpulseCache<Dim>& cache, const Bodies<Dim>& bodies) const;
 
     ImpulseCache<Dim> cache_, next_;  // next_: of the step under way, or before the last

@@ -91,6 +91,8 @@ NamedArrays arrays_of(const RunState<Dim, ShapeType>& state) {
         feature.push_back(static_cast<std::int64_t>(key.feature.code));
     }
     arrays.reals["contacts/impulse_world"] = flat(state.impulse);
+    // Only where there are some: other files stay as they were.
+    if (!state.moment.empty()) arrays.reals["contacts/moment_world"] = flat(state.moment);
     arrays.put("correction", state.correction);
     return arrays;
 }
@@ -188,6 +190,11 @@ RunState<Dim, ShapeType> state_of(const NamedArrays& arrays, const MotionOf<Dim>
                              {static_cast<std::uint64_t>(feature[c])}});
     read_vectors<Vector<Dim>>(arrays.real_list("contacts/impulse_world", a.size() * Dim),
                               state.impulse);
+    if (arrays.reals.contains("contacts/moment_world"))
+        read_vectors<AngularVector<Dim>>(
+            arrays.real_list("contacts/moment_world",
+                             a.size() * static_cast<std::size_t>(rotation_dof<Dim>)),
+            state.moment);
     state.correction = arrays.record("correction");
     return state;
 }

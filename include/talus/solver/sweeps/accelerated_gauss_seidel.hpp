@@ -67,7 +67,7 @@ struct AcceleratedGaussSeidelParams {
 ///
 /// Cost per iteration: two sweeps and half a sweep for the start at y; Anderson adds 3 depth
 /// products of vectors. Its memory, 2 depth + 4 impulses per contact, is reserved also for the
-/// tries of the other way. `w` is left following the impulses returned.
+/// tries of the other way. `w` is left following the impulses returned. `Dim`: rows of a contact.
 template <int Dim, ContactLaw<Dim> Law>
 class AcceleratedGaussSeidel {
   public:
@@ -79,7 +79,8 @@ class AcceleratedGaussSeidel {
 
     /// Solves `problem` from the warm start `r`, into `r`. Throws input_error on parameters out of
     /// range or arrays of different lengths.
-    const SolveReport& solve(const ContactProblem<Dim, Law>& problem, std::span<Vector<Dim>> r);
+    const SolveReport& solve(const ContactProblem<law_space<Law, Dim>, Law>& problem,
+                             std::span<Vector<Dim>> r);
     const SolveReport& solve(AssembledProblem<Dim, Law>& problem, std::span<Vector<Dim>> r) {
         return solve(problem.delassus, problem.free_velocity, problem.laws, r);
     }
@@ -175,7 +176,7 @@ class AcceleratedGaussSeidel {
     void momentum(std::span<const Vector<Dim>> x, double change);
     void combine(std::span<const Vector<Dim>> x, double change);
 
-    RigidBodyOperators<Dim> bodies_;
+    RigidBodyOperators<law_space<Law, Dim>, Dim> bodies_;
     SweepKernel<Dim, Law> kernel_;
     int count_ = 0, next_look_ = 1;  ///< of iterations
     int last_for_aim_ = 0;           ///< iteration at which the aim is given up; 0: there is none
@@ -192,8 +193,8 @@ class AcceleratedGaussSeidel {
 
 // Not inline, so that `extern template class` spares a user all of it.
 template <int Dim, ContactLaw<Dim> Law>
-const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(const ContactProblem<Dim, Law>& problem,
-                                                           std::span<Vector<Dim>> r) {
+const SolveReport& AcceleratedGaussSeidel<Dim, Law>::solve(
+    const ContactProblem<law_space<Law, Dim>, Law>& problem, std::span<Vector<Dim>> r) {
     return bodies_.with(problem.jacobian, problem.inverse_mass, [&](auto& w) -> const SolveReport& {
         return run(w, problem.free_velocity, problem.laws, r);
     });

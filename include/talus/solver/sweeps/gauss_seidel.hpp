@@ -28,18 +28,18 @@ namespace detail {
 
 /// Whether problems of rigid bodies have the rows of a law.
 template <int Rows, class Law>
-inline constexpr bool rows_of_bodies = SpaceDimension<Rows> && !has_rolling_rows<Law>;
+inline constexpr bool rows_of_bodies = SpaceDimension<law_space<Law, Rows>>;
 
 /// The problem of rigid bodies for a law, and the operators that a solver keeps of such between
-/// solves: nothing where rows are not those of space.
+/// solves: nothing where rows are neither those of space nor, as the law says, rolling ones too.
 template <int Rows, class Law>
 struct RigidBodies {
     struct Problem;
 };
 template <int Rows, class Law>
 requires(rows_of_bodies<Rows, Law>) struct RigidBodies<Rows, Law> {
-    using Problem = ContactProblem<Rows, Law>;
-    RigidBodyOperators<Rows> operators;
+    using Problem = ContactProblem<law_space<Law, Rows>, Law>;
+    RigidBodyOperators<law_space<Law, Rows>, Rows> operators;
 };
 
 }  // namespace detail
@@ -75,7 +75,7 @@ struct GaussSeidelParams {
 /// from the impulses, so that rounding errors do not pile up and the verdict is on what is
 /// returned.
 ///
-/// `Dim` is the rows per contact; problems of rigid bodies have those of space.
+/// `Dim` is the rows per contact: those of space, and with rolling friction more (law_rows).
 ///
 /// One object may be used again for any problems; it allocates when a problem is larger than all
 /// before. The same input gives the same bits, whether observed or not.
@@ -85,8 +85,8 @@ class GaussSeidel {
     /// Residuals kept in SolveReport::history; from then on the last one is replaced.
     static constexpr std::size_t history_limit = 64;
 
-    /// Problems of rigid bodies; of an unknown kind, and taken by no `solve`, for rows that are not
-    /// those of space.
+    /// Problems of rigid bodies; of an unknown kind, and taken by no `solve`, for rows that bodies
+    /// have not.
     using Problem = typename detail::RigidBodies<Dim, Law>::Problem;
 
     explicit GaussSeidel(GaussSeidelParams params = {}) : params(params) {}
