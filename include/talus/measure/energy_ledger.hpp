@@ -38,13 +38,16 @@ struct EnergyFlows {
     double gyroscopic = 0.0;   ///< error of the gyroscopic term (zero for balls and in the plane)
     double correction = 0.0;   ///< position correction against gravity
     double exchange = 0.0;     ///< bodies that came, less those that went
+    /// Contacts with images on the deformation of the periodic cell: V sigma : L of what is at rest
+    /// in the mean.
+    double cell = 0.0;
 
     double sum() const {
-        return friction + restitution + walls + applied + gyroscopic + correction + exchange;
+        return friction + restitution + walls + applied + gyroscopic + correction + exchange + cell;
     }
     double magnitude() const {
         return std::abs(friction) + std::abs(restitution) + std::abs(walls) + std::abs(applied) +
-               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange);
+               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange) + std::abs(cell);
     }
 };
 
@@ -113,6 +116,7 @@ class EnergyLedger {
                                flows_.gyroscopic, flows_.correction, flows_.exchange, kinetic_,
                                kinetic_start_, potential_, potential_start_, largest_})
             out.real(x);
+        out.real(flows_.cell);
     }
     static EnergyLedger read(NumberRecordReader& in) {
         EnergyLedger books;
@@ -122,6 +126,8 @@ class EnergyLedger {
                           &books.flows_.exchange, &books.kinetic_, &books.kinetic_start_,
                           &books.potential_, &books.potential_start_, &books.largest_})
             *x = in.real();
+        // Books of before there were cells end here.
+        if (in.has_real()) books.flows_.cell = in.real();
         return books;
     }
 
@@ -152,8 +158,13 @@ class EnergyLedger {
                 else
                     u_b[0] -= j.held[c];
             }
-            const Vector<Dim> u = u_a - u_b;
+            Vector<Dim> u = u_a - u_b;
             const Vector<Dim>& r = step.impulse[c];
+            if (!j.offset.empty()) {
+                const Vector<Dim> of_image = j.frame[c] * j.image_velocity(c);
+                u -= of_image;
+                flows_.cell += r.dot(of_image);
+            }
             flows_.restitution += r[0] * u[0];
             flows_.friction += tangential(r).dot(tangential(u));
             if (a_is_obstacle) flows_.walls -= r.dot(u_a);

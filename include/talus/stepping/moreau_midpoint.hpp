@@ -25,6 +25,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -38,6 +39,9 @@ namespace talus {
 ///   u_free = u_begin + h A^-1 F(t_mid, q_mid, u_begin)
 ///   law( mean of U_begin and U_end , r )  for every active contact,  u_end = u_free + A^-1 G^T r
 ///   q_end  = q_mid + (h/2) u_end
+///
+/// A periodic cell deforms to t_mid with the bodies and on to t_end; images move as it does at
+/// t_mid.
 template <int Dim, ContactLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad,
           class Hooks = NoHooks>
 class MoreauMidpoint {
@@ -107,6 +111,7 @@ class MoreauMidpoint {
     Column<Twist<Dim>> motion_;           // over one step; empty where nothing is anticipated
     Column<Twist<Dim>> excess_;           // shape less surface, by body
     double time_before_ = 0.0;
+    std::optional<PeriodicCell<Dim>> cell_before_;
     [[no_unique_address]] Hooks hooks_;
 };
 
@@ -138,6 +143,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     warm_start_.follow(system.bodies);
     before_.keep(system.bodies);
     time_before_ = system.time();
+    cell_before_ = system.cell();
     kept_ = true;
     data.t_begin = t_begin;
     data.h = h;
@@ -147,6 +153,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     evaluate_forces(system, params, data);
     detect(system, params, data);
     assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
+    if (data.cell) data.problem.jacobian.cell_rate = data.cell->velocity_gradient();
     hold_moving_surfaces(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
     hooks_.matrices_known(system, data);
@@ -178,6 +185,7 @@ TALUS_OF_STEP::undo(SystemType& system) noexcept {
     if (kept_) {
         before_.restore(system.bodies);
         system.set_time(time_before_);
+        system.put_cell(cell_before_);
     }
     if (stored_) warm_start_.undo();
     kept_ = stored_ = false;
@@ -199,6 +207,8 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
     require_finite("gravity", system.gravity);
     system.place_obstacles(data.t_mid(), part_of_step * data.h);
     drift(bodies, 0.5 * data.h);
+    system.move_cell(0.5 * data.h);
+    data.cell = system.cell();
     data.begin.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         data.begin[i] = bodies.twist(i);
@@ -229,9 +239,21 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
     const double touching = params.contact_tolerance.value_or(0.0);
     motion_.clear();
     if (anticipates) {
+        const auto in_open_space = [&](std::size_t i) {
+            return anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
+                                           fall_[i] / data.h, data.h);
+        };
+        const bool walls =
+            std::any_of(system.bounding_radius().begin(), system.bounding_radius().end(),
+                        [](double radius) { return !std::isfinite(radius); });
+        const auto in_cell = [&](std::size_t i) {
+            const double way =
+                anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
+                                        fall_[i] / data.h, data.h, *data.cell);
+            return walls ? std::max(way, in_open_space(i)) : way;
+        };
         for (std::size_t i = 0; i < n; ++i) {
-            const double way = anticipation_reach<Dim>(
-                system.bodies, i, system.bounding_radius()[i], fall_[i] / data.h, data.h);
+            const double way = data.cell ? in_cell(i) : in_open_space(i);
             reach_[i] = std::max(reach_[i], 0.5 * touching + way);
             motion_.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }
@@ -245,9 +267,11 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
                         (turn > 0.0 && std::isfinite(radius) ? turn * radius : 0.0);
         }
     }
+    Matrix<Dim> strain = Matrix<Dim>::Zero();
+    if (data.cell) strain = data.h * data.cell->velocity_gradient();
     detection_.detect(system.bodies, system.shape_list(),
                       params.skin * system.mean_bounding_radius(), reach_, motion_, touching,
-                      system.ignored, data.contacts);
+                      system.ignored, data.contacts, data.cell, strain);
     data.contacts.keep_if([&](std::size_t c) {
         const ContactKey& key = data.contacts.key[c];
         if (!can_part(data.contacts, c, system.bodies) && !holds_any_pull<Dim>(system.law_of(key)))
@@ -354,6 +378,7 @@ TALUS_OF_STEP::finish(SystemType& system, Data& data) {
                            bodies.rotation[i].matrix());
     }
     system.place_obstacles(data.t_end());
+    system.move_cell(0.5 * data.h);
 }
 
 #undef TALUS_OF_STEP

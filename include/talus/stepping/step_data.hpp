@@ -4,11 +4,13 @@
 #include <talus/collision/contact_set.hpp>
 #include <talus/core/column.hpp>
 #include <talus/core/types.hpp>
+#include <talus/dynamics/periodic_cell.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/solver/report.hpp>
 #include <talus/spatial/twist.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace talus {
@@ -31,10 +33,11 @@ struct StepData {
     PerBody<Twist<Dim>> free;   ///< u_free, world axes
     PerBody<Twist<Dim>> end;    ///< u_end, world axes
 
-    ContactSet<Dim> contacts;          ///< at the midpoint configuration
-    ContactProblem<Dim, Law> problem;  ///< what the solver was given
-    Column<Vector<Dim>> impulse;       ///< r, local axes [N s]
-    std::size_t recalled = 0;          ///< contacts that began with a remembered impulse
+    ContactSet<Dim> contacts;               ///< at the midpoint configuration
+    std::optional<PeriodicCell<Dim>> cell;  ///< the same, if there is one
+    ContactProblem<Dim, Law> problem;       ///< what the solver was given
+    Column<Vector<Dim>> impulse;            ///< r, local axes [N s]
+    std::size_t recalled = 0;               ///< contacts that began with a remembered impulse
     SolveReport report;
 
     /// Mechanical energy that a gap correction gave to gravity in this step [J].
