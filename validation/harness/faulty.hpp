@@ -312,7 +312,7 @@ struct FaultyHooks : talus::NoHooks {
                    talus::ShapeKind::core;
         };
         for (std::size_t first = 0, last = 0; first < contacts.count(); first = last) {
-            const auto [a, b, feature] = contacts.key[first];
+            const talus::BodyIndex a = contacts.key[first].a, b = contacts.key[first].b;
             const V<Dim> normal = contacts.normal[first];
             V<Dim> sum = V<Dim>::Zero();
             bool flat = is_hull(a) && is_hull(b);

@@ -90,7 +90,7 @@ talus::Wrench<Dim> resultant(const Equilibrium<Dim>& report, talus::BodyIndex fr
     talus::Wrench<Dim> sum;
     const auto& keys = report.data.contacts.key;
     for (std::size_t c = 0; c < keys.size(); ++c) {
-        const auto [a, b, feature] = keys[c];
+        const talus::BodyIndex a = keys[c].a, b = keys[c].b;
         if (!((a == from && b == to) || (a == to && b == from))) continue;
         sum += talus::Wrench<Dim>::at(report.data.contacts.point[c] - point,
                                       force_on<Dim>(report, to, c));

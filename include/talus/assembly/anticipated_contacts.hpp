@@ -35,19 +35,21 @@ class AnticipatedContacts {
 
     /// Takes `points`, what the narrow phase found for bodies a and b up to the gap `reach` [m].
     /// Pairs come in their order.
+    /// In a periodic cell body a meets an image of b, where a is; pairs come in the order of images
+    /// within that of bodies.
     template <class A, class B>
     requires CanMeet<A, B, Dim>
     void add(BodyIndex a, const A& shape_a, BodyIndex b, const B& shape_b, double reach,
-             std::span<const ContactPoint<Dim>> points) {
+             std::span<const ContactPoint<Dim>> points, const BodyImage<Dim>& image = {}) {
         if (!points.empty())
-            add({a, b, view_of<Dim>(shape_a), view_of<Dim>(shape_b), reach}, points);
+            add({a, b, view_of<Dim>(shape_a), view_of<Dim>(shape_b), reach, image}, points);
     }
 
     /// Appends the contacts of all pairs, sorted. In the place of those that the motion would close
     /// are the ones that it leads to. Those of half-spaces, which have one normal alone, and of
     /// shapes without a support mapping stay. What takes the place of open contacts, of gap >
-    /// tolerance, is open.
-    void finish(ContactSet<Dim>& contacts);
+    /// tolerance, is open. `in_cell`: contacts get the offsets of images.
+    void finish(ContactSet<Dim>& contacts, bool in_cell = false);
 
   private:
     /// Two convex parts of bodies, and where their contacts are in `found_`.
@@ -55,6 +57,7 @@ class AnticipatedContacts {
         BodyIndex a, b;
         ShapeView<Dim> shape_a, shape_b;
         double reach;
+        BodyImage<Dim> image = {};  ///< of b
         std::uint32_t child_a = 0, child_b = 0;
         std::size_t first = 0, count = 0;            ///< contacts at the nearest points
         std::size_t kept_first = 0, kept_count = 0;  ///< contacts to keep
@@ -71,7 +74,8 @@ class AnticipatedContacts {
     /// How far A goes past B there in one step.
     Vector<Dim> change_at(const Encounter& e, const Vector<Dim>& point) const {
         return motion_.motion(e.a).at(point - bodies_->position[e.a]) -
-               motion_.motion(e.b).at(point - bodies_->position[e.b]);
+               motion_.motion(e.b).at(point - (bodies_->position[e.b] + e.image.offset)) -
+               e.image.motion;
     }
     bool has_sides(const Encounter& e) const;
     /// Whether two round bodies go past each other by enough for their normal to turn: else that of
@@ -89,6 +93,13 @@ class AnticipatedContacts {
         return std::span(found_).subspan(e.kept_first, e.kept_count);
     }
     MovingShape<Dim> moving(BodyIndex i, const ShapeView<Dim>& shape) const;
+    MovingShape<Dim> moving_a(const Encounter& e) const { return moving(e.a, e.shape_a); }
+    MovingShape<Dim> moving_b(const Encounter& e) const {
+        MovingShape<Dim> b = moving(e.b, e.shape_b);
+        b.pose.position += e.image.offset;
+        b.motion.linear += e.image.motion;
+        return b;
+    }
 
     const Bodies<Dim>* bodies_ = nullptr;
     NarrowRoutines<Dim> routines_;
@@ -187,7 +198,7 @@ TALUS_OF_ANTICIPATED(bool)::has_sides(const Encounter& e) const {
            !e.shape_b.is_wall() &&
            (e.shape_a.kind() == ShapeKind::core || e.shape_b.kind() == ShapeKind::core ||
             turns_around(e)) &&
-           moving(e.a, e.shape_a).foreseeable() && moving(e.b, e.shape_b).foreseeable();
+           moving_a(e).foreseeable() && moving_b(e).foreseeable();
 }
 
 TALUS_OF_ANTICIPATED(bool)::turns_around(const Encounter& e) const {
@@ -204,7 +215,7 @@ TALUS_OF_ANTICIPATED(bool)::turns_around(const Encounter& e) const {
 
 TALUS_OF_ANTICIPATED(void)::judge(Encounter& e) {
     result_.clear();
-    const MovingShape<Dim> a = moving(e.a, e.shape_a), b = moving(e.b, e.shape_b);
+    const MovingShape<Dim> a = moving_a(e), b = moving_b(e);
     e.meeting =
         Passage<Dim>(a, b, routines_, tolerance_, e.reach, near_).append(nearest_of(e), result_);
     if (!e.meeting.disputed) return;
@@ -221,7 +232,7 @@ TALUS_OF_ANTICIPATED(void)::judge(Encounter& e) {
 TALUS_OF_ANTICIPATED(bool)::hold_up_bodies(const Encounter& e) {
     bool changes = false;
     for (const ContactPoint<Dim>& c : kept_of(e))
-        changes |= motion_.add(e.a, e.b, c, least_approach * e.reach);
+        changes |= motion_.add(e.a, e.b, c, least_approach * e.reach, e.image);
     return changes;
 }
 
@@ -248,14 +259,21 @@ TALUS_OF_ANTICIPATED(void)::decide_disputes() {
     }
 }
 
-TALUS_OF_ANTICIPATED(void)::finish(ContactSet<Dim>& contacts) {
+TALUS_OF_ANTICIPATED(void)::finish(ContactSet<Dim>& contacts, bool in_cell) {
     if (!disputed_.empty()) decide_disputes();
     for (auto e = encounters_.begin(); e != encounters_.end();) {
         const BodyIndex a = e->a, b = e->b;
+        const BodyImage<Dim> image = e->image;
         result_.clear();
-        for (; e != encounters_.end() && e->a == a && e->b == b; ++e) result_.append(kept_of(*e));
+        for (; e != encounters_.end() && e->a == a && e->b == b && e->image.shift == image.shift;
+             ++e)
+            result_.append(kept_of(*e));
         sort_by_feature(result_);
-        for (const ContactPoint<Dim>& point : result_) contacts.push_back(a, b, point);
+        for (const ContactPoint<Dim>& point : result_)
+            if (in_cell)
+                contacts.push_back(a, b, point, image.shift, image.offset);
+            else
+                contacts.push_back(a, b, point);
     }
 }
 

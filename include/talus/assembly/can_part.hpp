@@ -20,10 +20,9 @@ bool can_part(const ContactSet<Dim>& contacts, std::size_t c, const Bodies<Dim>&
     const Vector<Dim>& n = contacts.normal[c];
     // Of what may move: a light body that is held fast says nothing of a heavy one.
     double scale = 0.0;
-    const auto mobility = [&](std::size_t i) {
+    const auto mobility = [&](std::size_t i, const Vector<Dim>& centre) {
         const LockedAxes<Dim>& locked = bodies.locked[i];
-        const AngularVector<Dim> lever =
-            moment<Dim>(Vector<Dim>(contacts.point[c] - bodies.position[i]), n);
+        const AngularVector<Dim> lever = moment<Dim>(Vector<Dim>(contacts.point[c] - centre), n);
         const AngularMatrix<Dim> inverse = inverse_inertia_world(bodies, i);
         if (!locked.all_translations()) scale += bodies.inverse_mass[i];
         if (!locked.all_rotations()) scale += lever.dot(inverse * lever);
@@ -31,7 +30,9 @@ bool can_part(const ContactSet<Dim>& contacts, std::size_t c, const Bodies<Dim>&
         return bodies.inverse_mass[i] * n.dot(locked.free_part(n)) + lever.dot(turn);
     };
     constexpr double rounding = 1e-12;
-    const double both = mobility(a) + mobility(b);
+    Vector<Dim> centre_b = bodies.position[b];
+    if (!contacts.offset.empty()) centre_b += contacts.offset[c];
+    const double both = mobility(a, bodies.position[a]) + mobility(b, centre_b);
     return both > rounding * scale;
 }
 

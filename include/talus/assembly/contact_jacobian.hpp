@@ -14,14 +14,17 @@ namespace talus {
 /// Fills H for the contacts of a configuration: axes and lever arms. Two free bodies share the
 /// point half-way between their surfaces, which keeps their angular momentum; against an obstacle,
 /// which has none to keep, arms end on the surfaces, so that no gap or overlap lengthens or
-/// shortens them. O(contacts).
+/// shortens them. Of images in a periodic cell, the arm is about the image's centre; how fast the
+/// cell deforms is told by `hold_images`. O(contacts).
 template <int Dim>
 void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodies,
                        ContactJacobian<Dim>& jacobian) {
     jacobian.resize(contacts.count());
     jacobian.held.clear();
+    jacobian.offset = contacts.offset;
+    jacobian.cell_rate.setZero();
     for (std::size_t c = 0; c < contacts.count(); ++c) {
-        const auto [a, b, feature] = contacts.key[c];
+        const BodyIndex a = contacts.key[c].a, b = contacts.key[c].b;
         jacobian.a[c] = a;
         jacobian.b[c] = b;
         jacobian.frame[c] = local_frame<Dim>(contacts.normal[c]);
@@ -33,7 +36,10 @@ void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodie
         const Vector<Dim> to_surface =
             half * contacts.gap[c] * contacts.normal[c] - 0.5 * contacts.slide[c];
         jacobian.arm_a[c] = contacts.point[c] + to_surface - bodies.position[i];
-        jacobian.arm_b[c] = contacts.point[c] - to_surface - bodies.position[j];
+        jacobian.arm_b[c] =
+            contacts.point[c] - to_surface -
+            (contacts.offset.empty() ? bodies.position[j]
+                                     : Vector<Dim>(bodies.position[j] + contacts.offset[c]));
     }
 }
 
@@ -81,14 +87,16 @@ void assemble_rolling_lengths(std::span<const double> radius, ContactJacobian<Di
 
 /// Relative velocity of contact c when the bodies have the given world-axis twists:
 /// U_c = G_c u + W_c [m/s], local axes ([Moreau] equation (4)). Of a surface that moves on a shape
-/// that does not, only what goes along the surface counts. With `Rows` more than those of space:
-/// the rolling ones as well.
+/// that does not, only what goes along the surface counts. An image in a periodic cell that deforms
+/// moves otherwise than its body: a part of W. With `Rows` more than those of space: the rolling
+/// ones as well.
 template <int Dim, int Rows = Dim>
 Vector<Rows> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t c,
                                std::span<const Twist<Dim>> twists) {
     const Twist<Dim>& a = twists[static_cast<std::size_t>(jacobian.a[c])];
     const Twist<Dim>& b = twists[static_cast<std::size_t>(jacobian.b[c])];
     Vector<Dim> u = jacobian.frame[c] * (a.at(jacobian.arm_a[c]) - b.at(jacobian.arm_b[c]));
+    if (!jacobian.offset.empty()) u -= jacobian.frame[c] * jacobian.image_velocity(c);
     if (!jacobian.held.empty()) u[0] += jacobian.held[c];
     if constexpr (Rows == Dim) {
         return u;

@@ -70,7 +70,7 @@ class ImpulseCache {
             const BodyIndex a = to[static_cast<std::size_t>(key_[c].a)];
             const BodyIndex b = to[static_cast<std::size_t>(key_[c].b)];
             if (a < 0 || b < 0) continue;
-            key_[kept] = {a, b, key_[c].feature};
+            key_[kept] = {a, b, key_[c].feature, key_[c].image};
             impulse_[kept] = impulse_[c];
             if (!moment_.empty()) moment_[kept] = moment_[c];
             ++kept;

@@ -17,6 +17,15 @@
 
 namespace talus {
 
+/// An image of a body in a periodic cell; as it is made, the body itself.
+template <int Dim>
+requires SpaceDimension<Dim>
+struct BodyImage {
+    ImageShift shift = {};
+    Vector<Dim> offset = Vector<Dim>::Zero();  ///< from the body [m]
+    Vector<Dim> motion = Vector<Dim>::Zero();  ///< beyond that of the body, over one step [m]
+};
+
 /// Where bodies get to in the steps that Foresight looks ahead if contacts already decided on, its
 /// stops, hold them up: without friction, without a change of their turning, and by a few sweeps
 /// alone. A guess that tells by which side others are met; what bodies really do is the solver's.
@@ -45,8 +54,10 @@ class StoppedMotion {
     }
     bool is_released(BodyIndex i) const { return released_[static_cast<std::size_t>(i)]; }
     /// The contact, of which one body at least is released, is to hold up its bodies from the next
-    /// `settle` on. Displacements below `noise` [m] do not matter. True if it has to.
-    bool add(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& point, double noise);
+    /// `settle` on. Displacements below `noise` [m] do not matter. In a periodic cell it is with an
+    /// image of b. True if it has to.
+    bool add(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& point, double noise,
+             const BodyImage<Dim>& image = {});
     /// Lets all stops of the body act.
     void settle(BodyIndex i);
     bool is_changed(BodyIndex i) const { return changed_[static_cast<std::size_t>(i)]; }
@@ -58,7 +69,7 @@ class StoppedMotion {
     struct Stop {
         std::array<BodyIndex, 2> body;
         Vector<Dim> normal;
-        double turning;  ///< what the turns of both add to the distance in a step [m]
+        double turning;  ///< what turns, and the cell, add to the distance in a step [m]
         double least;    ///< least change of the distance in a step [m]
         double noise;    ///< [m]
         double push;     ///< so far [kg m]
@@ -81,16 +92,18 @@ class StoppedMotion {
 
 template <int Dim>
 requires SpaceDimension<Dim>
-bool StoppedMotion<Dim>::add(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& point,
-                             double noise) {
+bool StoppedMotion<Dim>::add(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& point, double noise,
+                             const BodyImage<Dim>& image) {
     const double least = -std::max(point.gap, 0.0) / Foresight::steps;
-    Stop stop{{a, b}, point.normal, 0.0, least, noise, 0.0, {}};
+    Stop stop{{a, b}, point.normal, -point.normal.dot(image.motion), least, noise, 0.0, {}};
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
         const auto i = static_cast<std::size_t>(stop.body[k]);
         const double sign = k == 0 ? 1.0 : -1.0;
         if (is_released(stop.body[k])) stop.next[k] = std::exchange(newest_[i], stops_.size());
         if (motion_[i].angular.norm() > Foresight::most_turn) continue;  // ends nobody knows where
-        const Vector<Dim> arm = point.point - 0.5 * sign * point.slide - bodies_->position[i];
+        Vector<Dim> centre = bodies_->position[i];
+        if (k == 1) centre += image.offset;
+        const Vector<Dim> arm = point.point - 0.5 * sign * point.slide - centre;
         stop.turning += sign * point.normal.dot(cross<Dim>(motion_[i].angular, arm));
     }
     stops_.push_back(stop);

@@ -12,7 +12,8 @@
 namespace talus {
 
 /// The contacts of one configuration, one array per field, in the order of their keys (body a, body
-/// b, feature), a < b. Signs as in ContactPoint.
+/// b, image of b, feature), a < b. Signs as in ContactPoint. In a periodic cell they are where body
+/// a is.
 template <int Dim>
 requires SpaceDimension<Dim>
 struct ContactSet {
@@ -21,6 +22,8 @@ struct ContactSet {
     Column<Vector<Dim>> normal;  ///< unit, from b towards a
     Column<double> gap;          ///< [m]
     Column<Vector<Dim>> slide;   ///< of a past b until they touch there [m]
+    /// From body b to the image of it that touches a [m]; empty where there is no periodic cell.
+    Column<Vector<Dim>> offset;
     /// Ids of the bodies that the keys name by their indices; empty for contacts made by hand.
     PerBody<BodyId> body;
 
@@ -48,6 +51,7 @@ struct ContactSet {
         normal.clear();
         gap.clear();
         slide.clear();
+        offset.clear();
         body.clear();
     }
     void push_back(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& c) {
@@ -56,6 +60,13 @@ struct ContactSet {
         normal.push_back(c.normal);
         gap.push_back(c.gap);
         slide.push_back(c.slide);
+    }
+    /// With an image of b: in a periodic cell all contacts are added so.
+    void push_back(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& c, const ImageShift& image,
+                   const Vector<Dim>& to_image) {
+        push_back(a, b, c);
+        key.back().image = image;
+        offset.push_back(to_image);
     }
     /// Keeps, in their order, the contacts c for which `keep(c)` holds.
     template <class Keep>
@@ -68,6 +79,7 @@ struct ContactSet {
             normal[kept] = normal[c];
             gap[kept] = gap[c];
             slide[kept] = slide[c];
+            if (!offset.empty()) offset[kept] = offset[c];
             ++kept;
         }
         key.resize(kept);
@@ -75,6 +87,7 @@ struct ContactSet {
         normal.resize(kept);
         gap.resize(kept);
         slide.resize(kept);
+        if (!offset.empty()) offset.resize(kept);
     }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 
@@ -29,12 +30,28 @@ struct FeatureId {
     friend constexpr auto operator<=>(const FeatureId&, const FeatureId&) = default;
 };
 
-/// Full identity of a contact over time: two bodies (a < b) and the touching features.
+/// Which image of a body in a periodic cell: by how many lattice vectors it is shifted (those that
+/// the dimension does not have are 0). All zero: the body itself.
+struct ImageShift {
+    std::array<std::int32_t, 3> n = {};
+    bool is_zero() const { return *this == ImageShift{}; }
+    friend constexpr auto operator<=>(const ImageShift&, const ImageShift&) = default;
+};
+
+/// Full identity of a contact over time: two bodies (a < b) and the touching features. In a
+/// periodic cell a touches an image of b. In the order a, b, image, feature.
 struct ContactKey {
     BodyIndex a = 0;
     BodyIndex b = 0;
     FeatureId feature;
-    friend constexpr auto operator<=>(const ContactKey&, const ContactKey&) = default;
+    ImageShift image = {};  ///< of b
+    friend constexpr bool operator==(const ContactKey&, const ContactKey&) = default;
+    friend constexpr std::strong_ordering operator<=>(const ContactKey& x, const ContactKey& y) {
+        if (x.a != y.a) return x.a <=> y.a;
+        if (x.b != y.b) return x.b <=> y.b;
+        if (x.image != y.image) return x.image <=> y.image;
+        return x.feature <=> y.feature;
+    }
 };
 
 }  // namespace talus

@@ -43,6 +43,7 @@ class NumberRecordReader {
   public:
     explicit NumberRecordReader(const NumberRecord& record) : record_(&record) {}
 
+    bool has_real() const { return real_ < record_->reals.size(); }  ///< not read yet
     double real() {
         require_more("real numbers", 1, record_->reals.size() - real_);
         return record_->reals[real_++];

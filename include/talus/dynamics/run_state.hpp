@@ -4,9 +4,11 @@
 #include <talus/core/ids.hpp>
 #include <talus/core/number_record.hpp>
 #include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/periodic_cell.hpp>
 #include <talus/dynamics/prescribed_motion.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace talus {
@@ -31,6 +33,7 @@ struct RunState {
     IgnoredPairs ignored;
     Vector<Dim> gravity = Vector<Dim>::Zero();  ///< [m/s^2]
     double time = 0.0;                          ///< of the obstacles' places [s]
+    std::optional<PeriodicCell<Dim>> cell;      ///< at that time
 
     double h = 0.0;           ///< step size of the simulation [s]
     double time_start = 0.0;  ///< when it began [s]

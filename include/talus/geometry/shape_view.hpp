@@ -7,8 +7,10 @@
 #include <talus/geometry/half_space.hpp>
 #include <talus/geometry/round_hole.hpp>
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <variant>
 
@@ -121,6 +123,25 @@ ShapeView<Dim> view_of(const S& shape) {
     } else {
         return {&shape, &shape_access<Dim, S>};
     }
+}
+
+/// Distance of the farthest point of a shape from the origin of its frame, or a little more;
+/// infinite where it has no bounds [m].
+template <int Dim>
+double farthest_point(const ShapeView<Dim>& view) {
+    double farthest = 0.0;
+    if (view.has_core()) {
+        const CoreView<Dim> core = view.core();
+        return core.centre.norm() + core.bound;
+    }
+    if (view.kind() == ShapeKind::compound) {
+        for (const BoundingBall<Dim>& ball : view.bounds())
+            farthest = std::max(farthest, ball.centre.norm() + ball.radius);
+        return farthest;
+    }
+    const Aabb<Dim> box = view.aabb(Pose<Dim>{});
+    return box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()
+                         : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace talus

@@ -114,7 +114,7 @@ ContactNetwork contact_network(const Bodies<Dim>& bodies, const ContactSet<Dim>&
         if (!network.bears[c]) continue;
         const ContactKey& key = contacts.key[c];
         const bool wall = bodies.is_obstacle(key.a) || bodies.is_obstacle(key.b);
-        const bool another = key.a != last.a || key.b != last.b;
+        const bool another = key.a != last.a || key.b != last.b || key.image != last.image;
         ++(wall ? network.wall_contacts : network.contacts);
         if (another) ++(wall ? network.wall_pairs : network.pairs);
         last = key;

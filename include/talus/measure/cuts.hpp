@@ -126,10 +126,12 @@ struct CutResultant {
 /// other. A contact is divided by it if the line between the centres of its bodies is; of an
 /// obstacle, which has no centre that means anything, the contact point stands for it. `forces` are
 /// those of `contact_forces`: world axes, on body a [N]. Bodies themselves are not cut: over a
-/// surface of few contacts the result scatters by the force of one. `couples`, where contacts
-/// transmit such beside forces (rolling friction: moment impulses over the duration of the step):
-/// on body a, world axes [N m]. O(contacts). Throws input_error unless there is one force per
-/// contact, and one couple or none at all, and for contacts of bodies beyond the count.
+/// surface of few contacts the result scatters by the force of one. In a periodic cell each contact
+/// counts once, where its first body is: right for surfaces that lattice vectors shift into
+/// themselves; for others there is cell_stress. `couples`, where contacts transmit such beside
+/// forces (rolling friction: moment impulses over the duration of the step): on body a, world axes
+/// [N m]. O(contacts). Throws input_error unless there is one force per contact, and one couple or
+/// none at all, and for contacts of bodies beyond the count.
 template <int Dim, CutSurface<Dim> Surface>
 CutResultant<Dim> cut_resultant(const Bodies<Dim>& bodies, const ContactJacobian<Dim>& jacobian,
                                 std::span<const Vector<Dim>> forces, const Surface& surface,
@@ -143,9 +145,11 @@ CutResultant<Dim> cut_resultant(const Bodies<Dim>& bodies, const ContactJacobian
         const auto a = static_cast<std::size_t>(jacobian.a[c]);
         const auto b = static_cast<std::size_t>(jacobian.b[c]);
         const Vector<Dim> on_a = bodies.position[a] + jacobian.arm_a[c];
-        const Vector<Dim> on_b = bodies.position[b] + jacobian.arm_b[c];
+        Vector<Dim> centre_b = bodies.position[b];
+        if (!jacobian.offset.empty()) centre_b += jacobian.offset[c];
+        const Vector<Dim> on_b = centre_b + jacobian.arm_b[c];
         const Vector<Dim> from = bodies.is_obstacle(a) ? on_a : bodies.position[a];
-        const Vector<Dim> to = bodies.is_obstacle(b) ? on_b : bodies.position[b];
+        const Vector<Dim> to = bodies.is_obstacle(b) ? on_b : centre_b;
         const int side = surface.crossing(from, to);
         if (side == 0) continue;
         const Vector<Dim> force = side * forces[c];

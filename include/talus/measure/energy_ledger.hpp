@@ -39,14 +39,18 @@ struct EnergyFlows {
     double correction = 0.0;   ///< position correction against gravity
     double exchange = 0.0;     ///< bodies that came, less those that went
     double rolling = 0.0;      ///< moments of rolling friction on the relative spin
+    /// Contacts with images on the deformation of the periodic cell: V sigma : L of what is at rest
+    /// in the mean.
+    double cell = 0.0;
 
     double sum() const {
         return friction + restitution + walls + applied + gyroscopic + correction + exchange +
-               rolling;
+               rolling + cell;
     }
     double magnitude() const {
         return std::abs(friction) + std::abs(restitution) + std::abs(walls) + std::abs(applied) +
-               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange) + std::abs(rolling);
+               std::abs(gyroscopic) + std::abs(correction) + std::abs(exchange) +
+               std::abs(rolling) + std::abs(cell);
     }
 };
 
@@ -116,19 +120,21 @@ class EnergyLedger {
         out.array(gravity_);
         for (const double x :
              {flows_.friction, flows_.restitution, flows_.walls, flows_.applied, flows_.gyroscopic,
-              flows_.correction, flows_.exchange, flows_.rolling, kinetic_, kinetic_start_,
-              potential_, potential_start_, largest_})
+              flows_.correction, flows_.exchange, kinetic_, kinetic_start_, potential_,
+              potential_start_, largest_, flows_.rolling, flows_.cell})
             out.real(x);
     }
     static EnergyLedger read(NumberRecordReader& in) {
         EnergyLedger books;
         books.gravity_ = in.array<Vector<Dim>>();
-        for (double* x :
-             {&books.flows_.friction, &books.flows_.restitution, &books.flows_.walls,
-              &books.flows_.applied, &books.flows_.gyroscopic, &books.flows_.correction,
-              &books.flows_.exchange, &books.flows_.rolling, &books.kinetic_, &books.kinetic_start_,
-              &books.potential_, &books.potential_start_, &books.largest_})
+        for (double* x : {&books.flows_.friction, &books.flows_.restitution, &books.flows_.walls,
+                          &books.flows_.applied, &books.flows_.gyroscopic, &books.flows_.correction,
+                          &books.flows_.exchange, &books.kinetic_, &books.kinetic_start_,
+                          &books.potential_, &books.potential_start_, &books.largest_})
             *x = in.real();
+        // Books of before there were rolling friction and cells end here.
+        for (double* x : {&books.flows_.rolling, &books.flows_.cell})
+            if (in.has_real()) *x = in.real();
         return books;
     }
 
@@ -159,8 +165,13 @@ class EnergyLedger {
                 else
                     u_b[0] -= j.held[c];
             }
-            const Vector<Dim> u = u_a - u_b;
+            Vector<Dim> u = u_a - u_b;
             const Vector<Dim>& r = step.impulse[c];
+            if (!j.offset.empty()) {
+                const Vector<Dim> of_image = j.frame[c] * j.image_velocity(c);
+                u -= of_image;
+                flows_.cell += r.dot(of_image);
+            }
             flows_.restitution += r[0] * u[0];
             flows_.friction += tangential(r).dot(tangential(u));
             if (a_is_obstacle) flows_.walls -= r.dot(u_a);

@@ -106,10 +106,11 @@ ForceChains force_chains(const Bodies<Dim>& bodies, const ContactSet<Dim>& conta
     std::vector<detail::ChainLinks> links(n);
     for (std::size_t c = 0; c < contacts.count(); ++c) {
         if (!(r[c][0] > params.least_impulse)) continue;
-        const auto [a, b, feature] = contacts.key[c];
+        const BodyIndex a = contacts.key[c].a, b = contacts.key[c].b;
         const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
         if (!strong(i) || !strong(j)) continue;
-        const Vector<Dim> line = bodies.position[j] - bodies.position[i];
+        Vector<Dim> line = bodies.position[j] - bodies.position[i];
+        if (!contacts.offset.empty()) line += contacts.offset[c];
         const double length = line.norm();
         if (!(length > 0.0)) continue;
         const double at_i = line.dot(direction[i]) / length;

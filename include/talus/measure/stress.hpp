@@ -2,6 +2,8 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/periodic_cell.hpp>
 #include <talus/problem/contact_problem.hpp>
 
 #include <cstddef>
@@ -57,6 +59,42 @@ Matrix<Dim> branch_moment(const ContactJacobian<Dim>& jacobian, std::span<const 
         sum += branch * forces[c].transpose();
     }
     return sum;
+}
+
+/// Mean stress of the free bodies of a periodic cell by their contacts, branch_moment over the
+/// volume of the cell [Pa; N/m in the plane]: [Christoffersen1981], compression negative. `forces`
+/// are those of `contact_forces`. Throws input_error for a contact of a body beyond the count.
+template <int Dim>
+Matrix<Dim> cell_stress(const ContactJacobian<Dim>& jacobian, std::span<const Vector<Dim>> forces,
+                        const Bodies<Dim>& bodies, const PeriodicCell<Dim>& cell) {
+    jacobian.require_bodies(bodies.count());
+    const auto is_free = [&](std::size_t i) { return !bodies.is_obstacle(i); };
+    return branch_moment(jacobian, forces, is_free) / cell.volume();
+}
+
+/// What the bodies' motion adds to that, of the moment as it is: - sum m c c^T over the volume,
+/// with c the velocity of a body against that of the cell where it is, less the mean of all [Pa].
+template <int Dim>
+Matrix<Dim> kinetic_stress(const Bodies<Dim>& bodies, const PeriodicCell<Dim>& cell) {
+    double mass = 0.0;
+    Vector<Dim> mean = Vector<Dim>::Zero();
+    const auto own = [&](std::size_t i) {
+        return Vector<Dim>(bodies.velocity[i] - cell.velocity_at(bodies.position[i]));
+    };
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+        if (bodies.is_obstacle(i)) continue;
+        mass += bodies.mass(i);
+        mean += bodies.mass(i) * own(i);
+    }
+    Matrix<Dim> sum = Matrix<Dim>::Zero();
+    if (!(mass > 0.0)) return sum;
+    mean /= mass;
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+        if (bodies.is_obstacle(i)) continue;
+        const Vector<Dim> c = own(i) - mean;
+        sum -= bodies.mass(i) * (c * c.transpose());
+    }
+    return sum / cell.volume();
 }
 
 }  // namespace talus

@@ -26,7 +26,7 @@ struct ContactJacobian {
     Column<BodyIndex> a;               ///< body that the normal points to
     Column<BodyIndex> b;               ///< the other one
     Column<Matrix<Dim>> frame;         ///< rows (n, t...)
-    Column<Vector<Dim>> arm_a, arm_b;  ///< from the centres to the contact point [m]
+    Column<Vector<Dim>> arm_a, arm_b;  ///< from the centres (of b its image's) to the point [m]
     /// Where a surface moves otherwise than its shape (PrescribedMotion::belt): the normal velocity
     /// of a relative to b by the shapes, less that by the surfaces [m/s]. Empty where none does.
     Column<double> held;
@@ -34,7 +34,16 @@ struct ContactJacobian {
     /// others, u_m = L (axes . (w_a - w_b)) [m/s] and moment = L (axes^T r_m) [N m], with the
     /// `rolling_axes` of the frame, positive [m]. Empty where none does.
     Column<double> rolling_length;
+    /// In a periodic cell: from b to the image of it that touches [m], and the rate at which the
+    /// cell deforms [1/s]; that image moves by `cell_rate offset` faster than b. Empty where there
+    /// is no cell.
+    Column<Vector<Dim>> offset;
+    Matrix<Dim> cell_rate = Matrix<Dim>::Zero();
 
+    /// Velocity of the image of b less that of b, world axes [m/s].
+    Vector<Dim> image_velocity(std::size_t c) const {
+        return offset.empty() ? Vector<Dim>::Zero() : Vector<Dim>(cell_rate * offset[c]);
+    }
     std::size_t contact_count() const { return a.size(); }
     /// Throws input_error unless all contacts are of bodies with an index below `count`.
     void require_bodies(std::size_t count) const {
@@ -53,6 +62,7 @@ struct ContactJacobian {
         detail::make_room(arm_b, n);
         if (!held.empty()) detail::make_room(held, n);
         if (!rolling_length.empty()) detail::make_room(rolling_length, n);
+        if (!offset.empty()) detail::make_room(offset, n);
     }
     void resize(std::size_t n) {
         a.resize(n);
@@ -62,6 +72,7 @@ struct ContactJacobian {
         arm_b.resize(n);
         if (!held.empty()) held.resize(n);
         if (!rolling_length.empty()) rolling_length.resize(n);
+        if (!offset.empty()) offset.resize(n);
     }
 };
 

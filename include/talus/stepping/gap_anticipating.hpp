@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/periodic_cell.hpp>
 #include <talus/law/concepts.hpp>
 
 #include <algorithm>
@@ -21,6 +22,20 @@ double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bound
     const double turning =
         spin > 0.0 && std::isfinite(bounding_radius) ? spin * bounding_radius : 0.0;
     return h * (bodies.velocity[i].norm() + turning + 2.0 * gained);
+}
+
+/// The same in a periodic cell, of which bodies and images follow the mean motion: the body's own
+/// motion against that, and what deforms between its centre and another within that reach. A wall,
+/// which has no images, is met by the velocities as they are.
+template <int Dim>
+double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bounding_radius,
+                          double gained, double h, const PeriodicCell<Dim>& cell) {
+    const double plain = anticipation_reach(bodies, i, bounding_radius, gained, h);
+    if (!std::isfinite(bounding_radius)) return plain;
+    const double speed = bodies.velocity[i].norm();
+    const Vector<Dim> own = bodies.velocity[i] - cell.velocity_at(bodies.position[i]);
+    const double strain = h * cell.velocity_gradient().norm();
+    return (plain + h * (own.norm() - speed) + strain * bounding_radius) / (1.0 - strain);
 }
 
 /// What a gap adds to the normal velocity that the law sees: consecutive midpoints differ by h

@@ -19,6 +19,7 @@
 #include <talus/stepping/step_data.hpp>
 #include <talus/stepping/step_hooks.hpp>
 #include <talus/stepping/step_params.hpp>
+#include <talus/stepping/step_reach.hpp>
 #include <talus/stepping/system.hpp>
 #include <talus/stepping/warm_start.hpp>
 
@@ -26,6 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -39,6 +41,9 @@ namespace talus {
 ///   u_free = u_begin + h A^-1 F(t_mid, q_mid, u_begin)
 ///   law( mean of U_begin and U_end , r )  for every active contact,  u_end = u_free + A^-1 G^T r
 ///   q_end  = q_mid + (h/2) u_end
+///
+/// A periodic cell deforms to t_mid with the bodies and on to t_end; images move as it does at
+/// t_mid.
 template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad,
           class Hooks = NoHooks>
 class MoreauMidpoint {
@@ -104,11 +109,11 @@ class MoreauMidpoint {
     WarmStart<Dim> warm_start_;
     KeptState<Dim> before_;
     bool kept_ = false, stored_ = false;  // there is a step to take back, with its impulses
-    Column<double> fall_, reach_;         // by body
-    Column<Twist<Dim>> motion_;           // over one step; empty where nothing is anticipated
-    Column<Twist<Dim>> excess_;           // shape less surface, by body
-    Column<double> rolling_radius_;       // by body; empty for laws without rolling friction
+    StepReach<Dim> look_;
+    Column<Twist<Dim>> excess_;      // shape less surface, by body
+    Column<double> rolling_radius_;  // by body; empty for laws without rolling friction
     double time_before_ = 0.0;
+    std::optional<PeriodicCell<Dim>> cell_before_;
     [[no_unique_address]] Hooks hooks_;
 };
 
@@ -139,6 +144,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     warm_start_.follow(system.bodies);
     before_.keep(system.bodies);
     time_before_ = system.time();
+    cell_before_ = system.cell();
     kept_ = true;
     data.t_begin = t_begin;
     data.h = h;
@@ -148,6 +154,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     evaluate_forces(system, params, data);
     detect(system, params, data);
     assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
+    if (data.cell) data.problem.jacobian.cell_rate = data.cell->velocity_gradient();
     hold_moving_surfaces(system, data);
     measure_rolling(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
@@ -188,6 +195,7 @@ TALUS_OF_STEP::undo(SystemType& system) noexcept {
     if (kept_) {
         before_.restore(system.bodies);
         system.set_time(time_before_);
+        system.put_cell(cell_before_);
     }
     if (stored_) warm_start_.undo();
     kept_ = stored_ = false;
@@ -209,6 +217,8 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
     require_finite("gravity", system.gravity);
     system.place_obstacles(data.t_mid(), part_of_step * data.h);
     drift(bodies, 0.5 * data.h);
+    system.move_cell(0.5 * data.h);
+    data.cell = system.cell();
     data.begin.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         data.begin[i] = bodies.twist(i);
@@ -219,53 +229,22 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
 TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& data) {
     require_count("bodies after the forces were called", system.bodies.count(),
                   "the beginning of the step", data.begin.size());
-    const std::size_t n = system.bodies.count();
-    const bool anticipates = params.scheme == Scheme::gap_anticipating;
-    fall_.resize(n);
-    reach_.resize(n);
-    const auto thickness = [&](std::size_t i) {
-        return system.bodies.is_obstacle(i) ? std::numeric_limits<double>::infinity()
-                                            : system.half_thickness()[i];
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-        const double radius = system.bounding_radius()[i];
-        const double turn = (data.free[i].angular - data.begin[i].angular).norm();
-        fall_[i] = data.h * ((data.free[i].linear - data.begin[i].linear).norm() +
-                             (turn > 0.0 && std::isfinite(radius) ? turn * radius : 0.0));
-        // No gap of a pair that counts as closed is larger than this one of one of its free bodies.
-        reach_[i] = system.bodies.is_obstacle(i) ? 0.0 : closed_gap(params, thickness(i), fall_[i]);
-    }
-    // What is anticipated needs no more: it is held before it opens.
-    const double touching = params.contact_tolerance.value_or(0.0);
-    motion_.clear();
-    if (anticipates) {
-        for (std::size_t i = 0; i < n; ++i) {
-            const double way = anticipation_reach<Dim>(
-                system.bodies, i, system.bounding_radius()[i], fall_[i] / data.h, data.h);
-            reach_[i] = std::max(reach_[i], 0.5 * touching + way);
-            motion_.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
-        }
-        // Shapes whose surfaces move otherwise: the shape of a belt stands still.
-        for (const auto& [body, motion] : system.obstacles) {
-            if (!motion.surface_moves()) continue;
-            const auto i = static_cast<std::size_t>(body);
-            motion_[i] = motion.displacement(data.t_begin, data.t_end());
-            const double radius = system.bounding_radius()[i], turn = motion_[i].angular.norm();
-            reach_[i] = 0.5 * touching + motion_[i].linear.norm() +
-                        (turn > 0.0 && std::isfinite(radius) ? turn * radius : 0.0);
-        }
-    }
+    look_.measure(system, params, data);
+    Matrix<Dim> strain = Matrix<Dim>::Zero();
+    if (data.cell) strain = data.h * data.cell->velocity_gradient();
     detection_.detect(system.bodies, system.shape_list(),
-                      params.skin * system.mean_bounding_radius(), reach_, motion_, touching,
-                      system.ignored, data.contacts);
+                      params.skin * system.mean_bounding_radius(), look_.reach, look_.motion,
+                      params.contact_tolerance.value_or(0.0), system.ignored, data.contacts,
+                      data.cell, strain);
     data.contacts.keep_if([&](std::size_t c) {
         const ContactKey& key = data.contacts.key[c];
         if (!can_part(data.contacts, c, system.bodies) && !holds_any_pull<Dim>(system.law_of(key)))
             return false;
         const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
-        return data.contacts.gap[c] <= closed_gap(params, std::min(thickness(a), thickness(b)),
-                                                  std::max(fall_[a], fall_[b])) ||
-               (anticipates && !bounces<Dim>(system.law_of(key)) &&
+        const double thinner = std::min(look_.thickness(system, a), look_.thickness(system, b));
+        return data.contacts.gap[c] <=
+                   closed_gap(params, thinner, std::max(look_.fall[a], look_.fall[b])) ||
+               (params.scheme == Scheme::gap_anticipating && !bounces<Dim>(system.law_of(key)) &&
                 !attracts<Dim>(system.law_of(key)));
     });
 }
@@ -355,8 +334,8 @@ template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad
 bool MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks>::rests(const Data& data,
                                                               std::size_t c) const {
     const ContactKey& key = data.contacts.key[c];
-    const double fall =
-        std::max(fall_[static_cast<std::size_t>(key.a)], fall_[static_cast<std::size_t>(key.b)]);
+    const double fall = std::max(look_.fall[static_cast<std::size_t>(key.a)],
+                                 look_.fall[static_cast<std::size_t>(key.b)]);
     return -data.h * relative_velocity<Dim>(data.problem.jacobian, c, data.begin)[0] <= fall;
 }
 
@@ -376,6 +355,7 @@ TALUS_OF_STEP::finish(SystemType& system, Data& data) {
                            bodies.rotation[i].matrix());
     }
     system.place_obstacles(data.t_end());
+    system.move_cell(0.5 * data.h);
 }
 
 #undef TALUS_OF_STEP

@@ -4,11 +4,13 @@
 #include <talus/collision/contact_set.hpp>
 #include <talus/core/column.hpp>
 #include <talus/core/types.hpp>
+#include <talus/dynamics/periodic_cell.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/solver/report.hpp>
 #include <talus/spatial/twist.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace talus {
@@ -44,9 +46,10 @@ struct StepData {
     PerBody<Twist<Dim>> free;   ///< u_free, world axes
     PerBody<Twist<Dim>> end;    ///< u_end, world axes
 
-    ContactSet<Dim> contacts;          ///< at the midpoint configuration
-    ContactProblem<Dim, Law> problem;  ///< what the solver was given
-    Column<Vector<Dim>> impulse;       ///< r, local axes [N s]
+    ContactSet<Dim> contacts;               ///< at the midpoint configuration
+    std::optional<PeriodicCell<Dim>> cell;  ///< the same, if there is one
+    ContactProblem<Dim, Law> problem;       ///< what the solver was given
+    Column<Vector<Dim>> impulse;            ///< r, local axes [N s]
     /// Moment impulses of rolling friction on the first body of each contact, world axes [N m s];
     /// empty for laws without.
     Column<AngularVector<Dim>> moment;

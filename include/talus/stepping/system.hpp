@@ -7,6 +7,7 @@
 #include <talus/core/instantiate.hpp>
 #include <talus/dynamics/bodies.hpp>
 #include <talus/dynamics/forces.hpp>
+#include <talus/dynamics/periodic_cell.hpp>
 #include <talus/dynamics/place.hpp>
 #include <talus/dynamics/prescribed_motion.hpp>
 #include <talus/dynamics/run_state.hpp>
@@ -16,11 +17,14 @@
 #include <talus/law/material_table.hpp>
 #include <talus/law/weighted_mean.hpp>
 #include <talus/stepping/body_shapes.hpp>
+#include <talus/stepping/cell_room.hpp>
+#include <talus/stepping/obstacle_checks.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -139,10 +143,15 @@ struct System {
     void set_time(double t) noexcept;
     /// Throws input_error if an obstacle is not as its motion left it: a place or a velocity
     /// written into `bodies` would be lost without a word at the next step.
-    void require_obstacles_in_place() const;
+    void require_obstacles_in_place() const {
+        require_in_place(bodies, std::span<const Obstacle>(obstacles),
+                         std::span<const PlacedObstacle<Dim>>(placed_), time_);
+    }
     /// Throws input_error for inverse masses and moments that no body has, and for a body without
     /// mass or motion that has a velocity, with which it would push others and stay where it is.
-    void require_masses() const;
+    void require_masses() const {
+        require_masses_or_motions(bodies, std::span<const Obstacle>(obstacles));
+    }
 
     /// Keeps a step from being changed, or begun again, on its way. Throws input_error if one is on
     /// its way already.
@@ -152,6 +161,39 @@ struct System {
     }
     void end_step() noexcept { step_.under_way = false; }
     void require_between_steps() const;
+
+    /// The periodic cell, if there is one, at `time()`.
+    const std::optional<PeriodicCell<Dim>>& cell() const { return cell_; }
+    /// From now on bodies meet each other's images. Walls without bounds (half-spaces, holes) have
+    /// no images and must be the same ones from everywhere. Throws input_error, and changes
+    /// nothing, where lattice vectors lead out of a half-space or of a hole, and for a free body as
+    /// wide (as the ball about its centre that holds it) as the shortest lattice vector is long: it
+    /// would meet itself.
+    void set_cell(const PeriodicCell<Dim>& cell) {
+        require_between_steps();
+        require_room<Dim, ShapeType>(cell, bodies, shapes(), bounding_radius());
+        cell_ = cell;
+    }
+    void remove_cell() {
+        require_between_steps();
+        cell_.reset();
+    }
+    /// How the cell deforms from now on [1/s]. Throws input_error if it is not finite or there is
+    /// no cell.
+    void set_velocity_gradient(const Matrix<Dim>& rate) {
+        require_between_steps();
+        if (!cell_)
+            throw input_error("velocity gradient is of no cell, but must be of one: call set_cell");
+        cell_->set_velocity_gradient(rate);
+    }
+    /// Deforms the cell for a time [s], within a step. Throws as set_cell does.
+    void move_cell(double duration) {
+        if (!cell_) return;
+        deform(*cell_, duration);
+        require_room<Dim, ShapeType>(*cell_, bodies, shapes(), bounding_radius());
+    }
+    /// Takes that back.
+    void put_cell(const std::optional<PeriodicCell<Dim>>& cell) noexcept { cell_ = cell; }
 
     /// The law of a contact: that of the two bodies' materials.
     const Law& law_of(const ContactKey& key) const {
@@ -174,19 +216,15 @@ struct System {
         Step(const Step&) noexcept {}
         Step& operator=(const Step&) noexcept { return *this; }
     };
-    /// As the motion of an obstacle left its body.
-    struct Placed {
-        BodyIndex body;
-        PlacedState<Dim> state;
-    };
-    Placed placed_state(BodyIndex body) const {
+    PlacedObstacle<Dim> placed_state(BodyIndex body) const {
         return {body, PlacedState<Dim>::of(bodies, static_cast<std::size_t>(body))};
     }
 
     double time_ = 0.0;
     Step step_;
-    Column<Placed> placed_;  // in the order of obstacles
+    Column<PlacedObstacle<Dim>> placed_;  // in the order of obstacles
     BodyShapes<Dim, ShapeType> shapes_;
+    std::optional<PeriodicCell<Dim>> cell_;
 };
 
 template <int Dim, class Law, class ShapeType>
@@ -266,54 +304,6 @@ void System<Dim, Law, ShapeType>::set_time(double t) noexcept {
 
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
-void System<Dim, Law, ShapeType>::require_obstacles_in_place() const {
-    // Where the list of obstacles was written by hand there is no record to compare with.
-    if (placed_.size() != obstacles.size()) return;
-    for (std::size_t k = 0; k < obstacles.size(); ++k) {
-        const auto i = static_cast<std::size_t>(obstacles[k].body);
-        const bool recorded = placed_[k].body == obstacles[k].body;
-        if (recorded && bodies.is_obstacle(i) && !placed_[k].state.is_of(bodies, i))
-            detail::reject_motion(i, time_,
-                                  " does not lead to where the body is or to its velocity, which "
-                                  "were changed by hand, but must: change the motion "
-                                  "(System::obstacles)");
-    }
-}
-
-template <int Dim, class Law, class ShapeType>
-requires SpaceDimension<Dim>
-void System<Dim, Law, ShapeType>::require_masses() const {
-    const std::size_t n = bodies.count();
-    for (const Obstacle& obstacle : obstacles) {
-        require_in("body of an obstacle", obstacle.body, 0.0, static_cast<double>(n) - 1.0);
-        if (!bodies.is_obstacle(obstacle.body))
-            detail::reject(
-                detail::numbered("inverse mass of body", static_cast<std::size_t>(obstacle.body),
-                                 ", which has a prescribed motion,"),
-                bodies.inverse_mass[obstacle.body], "0");
-    }
-    if (require_masses_of(bodies) == obstacles.size()) return;
-    const auto has_motion = [&](std::size_t i) {
-        return std::any_of(obstacles.begin(), obstacles.end(), [i](const Obstacle& obstacle) {
-            return static_cast<std::size_t>(obstacle.body) == i;
-        });
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!bodies.is_obstacle(i)) continue;
-        const double speed = bodies.velocity[i].norm() + bodies.spin[i].norm();
-        const double turns = bodies.inverse_inertia[i].maxCoeff();
-        if ((speed == 0.0 && turns == 0.0) || has_motion(i)) continue;
-        const std::string body = detail::numbered(" of body", i);
-        if (turns != 0.0)
-            detail::reject("inverse moment of inertia" + body, turns,
-                           "0 like its inverse mass, which makes it an obstacle");
-        detail::reject("velocity" + body, speed,
-                       "0, as it has neither mass nor a prescribed motion");
-    }
-}
-
-template <int Dim, class Law, class ShapeType>
-requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::require_between_steps() const {
     if (step_.under_way)
         throw input_error(
@@ -366,6 +356,7 @@ void System<Dim, Law, ShapeType>::write_to(RunState<Dim, ShapeType>& state) cons
     state.ignored = ignored;
     state.gravity = gravity;
     state.time = time_;
+    state.cell = cell_;
 }
 
 template <int Dim, class Law, class ShapeType>
@@ -389,8 +380,9 @@ void System<Dim, Law, ShapeType>::restore(const RunState<Dim, ShapeType>& state)
     for (const Obstacle& obstacle : other.obstacles)
         other.placed_.push_back(other.placed_state(obstacle.body));
     other.gravity = state.gravity;
-    other.forces = std::move(forces);
     other.time_ = state.time;
+    if (state.cell) other.set_cell(*state.cell);
+    other.forces = std::move(forces);
     *this = std::move(other);
 }
 

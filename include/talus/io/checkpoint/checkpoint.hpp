@@ -60,7 +60,8 @@ inline void require_record_name(const std::string& name) {
 namespace detail {
 
 inline constexpr const char* checkpoint_format = "talus checkpoint";
-inline constexpr int checkpoint_version = 1;
+/// The version is 2 where there is a periodic cell, which older programs would overlook.
+inline constexpr int checkpoint_version = 1, checkpoint_version_of_cells = 2;
 
 template <class State>
 struct StateTypes;
@@ -125,7 +126,10 @@ void save_checkpoint(const std::filesystem::path& path, const Sim& sim,
         require_record_name(name);
         arrays.put("records/" + name, record);
     }
-    detail::write_arrays(path, detail::checkpoint_format, detail::checkpoint_version, arrays);
+    const bool cell = arrays.reals.contains("cell/reals");
+    detail::write_arrays(path, detail::checkpoint_format,
+                         cell ? detail::checkpoint_version_of_cells : detail::checkpoint_version,
+                         arrays);
 }
 
 /// Puts the state of a file in place of that of `sim`, a simulation with the laws, forces, settings
@@ -143,7 +147,8 @@ CheckpointRecords load_checkpoint(
     using Types = detail::StateTypesOf<Sim>;
     constexpr int Dim = Types::Dim;
     const auto arrays =
-        detail::read_arrays(path, detail::checkpoint_format, detail::checkpoint_version);
+        detail::read_arrays(path, detail::checkpoint_format, detail::checkpoint_version,
+                            detail::checkpoint_version_of_cells);
     try {
         if (const auto found = arrays.texts.find("experiment");
             found == arrays.texts.end() || found->second != experiment)

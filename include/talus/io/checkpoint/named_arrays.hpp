@@ -112,14 +112,14 @@ inline void write_arrays(const std::filesystem::path& path, const std::string& f
 }
 
 /// Reads them back. Throws input_error, one sentence that names the file, if it is none, of another
-/// format or version, or not as it was written.
+/// format or of no version from `version` to the last, or not as it was written.
 inline NamedArrays read_arrays(const std::filesystem::path& path, const std::string& format,
-                               int version) {
+                               int version, int last_version) {
     const Hdf5Reader file(path, "a " + format);
     const std::string found = file.text("format");
     if (found != format)
         file.fail("format", "is '" + printable(found, 40) + "', but must be '" + format + "'");
-    file.integer("version", version, version);
+    file.integer("version", version, last_version);
     NamedArrays arrays;
     const std::string names = file.text("names");
     for (std::size_t at = 0, end = 0; at < names.size(); at = end + 1) {

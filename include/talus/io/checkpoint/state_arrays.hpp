@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,31 @@ void read_vectors(const std::vector<double>& numbers, Vectors& vectors) {
 template <int Dim>
 std::size_t rotation_width() {
     return record_of(Rotation<Dim>()).reals.size();
+}
+
+/// The periodic cell, and which images the contacts are of.
+template <int Dim, class ShapeType>
+void write_cell(const RunState<Dim, ShapeType>& state, NamedArrays& arrays) {
+    arrays.put("cell", record_of(*state.cell));
+    auto& image = arrays.integers["contacts/image"];
+    for (const ContactKey& key : state.key)
+        image.insert(image.end(), key.image.n.begin(), key.image.n.end());
+}
+/// Nothing where there was none, as in older files.
+template <int Dim, class ShapeType>
+void read_cell(const NamedArrays& arrays, RunState<Dim, ShapeType>& state) {
+    if (!arrays.reals.contains("cell/reals")) return;
+    state.cell = from_record<PeriodicCell<Dim>>(arrays.record("cell"));
+    const auto& image = arrays.integer_list("contacts/image", 3 * state.key.size());
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    for (std::size_t c = 0; c < state.key.size(); ++c)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int64_t steps = image[3 * c + k];
+            if (steps > most || steps < -most)
+                throw input_error("contacts/image is " + std::to_string(steps) +
+                                  ", but must be within 2^31");
+            state.key[c].image.n[k] = static_cast<std::int32_t>(steps);
+        }
 }
 
 /// A state as lists of numbers: one list per field of the bodies, body after body.
@@ -93,6 +119,7 @@ NamedArrays arrays_of(const RunState<Dim, ShapeType>& state) {
     arrays.reals["contacts/impulse_world"] = flat(state.impulse);
     // Only where there are some: other files stay as they were.
     if (!state.moment.empty()) arrays.reals["contacts/moment_world"] = flat(state.moment);
+    if (state.cell) write_cell(state, arrays);
     arrays.put("correction", state.correction);
     return arrays;
 }
@@ -195,6 +222,7 @@ RunState<Dim, ShapeType> state_of(const NamedArrays& arrays, const MotionOf<Dim>
             arrays.real_list("contacts/moment_world",
                              a.size() * static_cast<std::size_t>(rotation_dof<Dim>)),
             state.moment);
+    read_cell(arrays, state);
     state.correction = arrays.record("correction");
     return state;
 }

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <talus/core/input.hpp>
+#include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/periodic_cell.hpp>
+#include <talus/geometry/shape_view.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace talus {
+
+namespace detail {
+
+/// Throws input_error unless a wall without bounds is its own image.
+template <int Dim>
+void require_wall_along(const PeriodicCell<Dim>& cell, const Bodies<Dim>& bodies, std::size_t body,
+                        const ShapeView<Dim>& wall) {
+    constexpr double rounding = 1e-9;
+    for (int k = 0; k < Dim; ++k) {
+        if (!cell.periodic()[static_cast<std::size_t>(k)]) continue;
+        const Vector<Dim> along =
+            bodies.rotation[body].transpose_times(Vector<Dim>(cell.lattice().col(k)));
+        double across = 0.0;
+        if (wall.kind() == ShapeKind::half_space) {
+            across = std::abs(wall.template as<HalfSpace<Dim>>().normal().dot(along));
+        } else {
+            const Vector<Dim>& axis = wall.template as<RoundHole<Dim>>().axis();
+            across = (along - axis.dot(along) * axis).norm();
+        }
+        if (!(across <= rounding * along.norm()))
+            reject(numbered("part of lattice vector", static_cast<std::size_t>(k),
+                            numbered(" across the wall, body", body, ",")),
+                   across, "0, as walls have no images");
+    }
+}
+
+}  // namespace detail
+
+/// Throws input_error for a free body as wide (as the ball about its centre that holds it) as the
+/// shortest lattice vector of the cell is long, which would meet its own image, and for a
+/// half-space or a hole that lattice vectors do not shift into itself. O(bodies).
+template <int Dim, class ShapeType>
+void require_room(const PeriodicCell<Dim>& cell, const Bodies<Dim>& bodies,
+                  std::span<const ShapeType> shapes, std::span<const double> bounding_radius) {
+    const double shortest = cell.reduced().shortest();
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (2.0 * bounding_radius[i] < shortest) continue;
+        const ShapeView<Dim> view = view_of<Dim>(shapes[i]);
+        if (view.is_wall()) {
+            detail::require_wall_along(cell, bodies, i, view);
+            continue;
+        }
+        const double width = 2.0 * farthest_point(view);
+        if (bodies.is_obstacle(i) || !std::isfinite(width) || width < shortest) continue;
+        detail::reject(
+            "shortest lattice vector of the cell", shortest,
+            detail::numbered("above the width of body", i,
+                             ", " + detail::text_of(width) + ", which would meet its own image"));
+    }
+}
+
+/// Deforms a cell for a part of a step [s]. Throws input_error for a strain beyond 0.25 in it, and
+/// where nothing is left of the cell.
+template <int Dim>
+void deform(PeriodicCell<Dim>& cell, double duration) {
+    constexpr double most_strain = 0.25;
+    require_in("strain of the cell in half a step",
+               std::abs(duration) * cell.velocity_gradient().norm(), 0.0, most_strain);
+    cell.advance(duration);
+}
+
+}  // namespace talus
