@@ -14,6 +14,7 @@
 #include <talus/dynamics/drift.hpp>
 #include <talus/dynamics/kept_state.hpp>
 #include <talus/solver/concepts.hpp>
+#include <talus/stepping/driven_cell.hpp>
 #include <talus/stepping/gap_anticipating.hpp>
 #include <talus/stepping/step_data.hpp>
 #include <talus/stepping/step_hooks.hpp>
@@ -41,7 +42,7 @@ namespace talus {
 ///   q_end  = q_mid + (h/2) u_end
 ///
 /// A periodic cell deforms to t_mid with the bodies and on to t_end; images move as it does at
-/// t_mid.
+/// t_mid. One that a stress drives is one more body of the problem (CellDrive).
 template <int Dim, ContactLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad,
           class Hooks = NoHooks>
 class MoreauMidpoint {
@@ -156,6 +157,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     if (data.cell) data.problem.jacobian.cell_rate = data.cell->velocity_gradient();
     hold_moving_surfaces(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
+    if (data.cell && system.cell_drive()) pose_cell(system, data);
     hooks_.matrices_known(system, data);
     hooks_.forces_known(system, data);
     assemble_contacts(system, params, data);
@@ -173,6 +175,7 @@ TALUS_OF_STEP::complete(SystemType& system, Data& data) {
     hooks_.solved(system, data);
     data.end = data.free;
     apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
+    if (!data.from_home.empty()) apply_to_cell(system, data);
     hooks_.velocities_known(system, data);
     finish(system, data);
     hooks_.finished(system, data);
@@ -209,6 +212,8 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
     drift(bodies, 0.5 * data.h);
     system.move_cell(0.5 * data.h);
     data.cell = system.cell();
+    data.from_home.clear();
+    if (data.cell) data.cell_rate_free = data.cell_rate_end = data.cell->velocity_gradient();
     data.begin.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         data.begin[i] = bodies.twist(i);
@@ -239,21 +244,11 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
     const double touching = params.contact_tolerance.value_or(0.0);
     motion_.clear();
     if (anticipates) {
-        const auto in_open_space = [&](std::size_t i) {
-            return anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
-                                           fall_[i] / data.h, data.h);
-        };
-        const bool walls =
-            std::any_of(system.bounding_radius().begin(), system.bounding_radius().end(),
-                        [](double radius) { return !std::isfinite(radius); });
-        const auto in_cell = [&](std::size_t i) {
+        const bool walls = data.cell && has_walls(system.bounding_radius());
+        for (std::size_t i = 0; i < n; ++i) {
             const double way =
                 anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
-                                        fall_[i] / data.h, data.h, *data.cell);
-            return walls ? std::max(way, in_open_space(i)) : way;
-        };
-        for (std::size_t i = 0; i < n; ++i) {
-            const double way = data.cell ? in_cell(i) : in_open_space(i);
+                                        fall_[i] / data.h, data.h, data.cell, walls);
             reach_[i] = std::max(reach_[i], 0.5 * touching + way);
             motion_.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }
@@ -341,6 +336,7 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
     for (const ContactKey& key : data.contacts.key) data.problem.laws.push_back(system.law_of(key));
     assemble_velocities<Dim, Law>(data.problem.jacobian, data.begin, data.free, data.problem.laws,
                                   data.problem.free_velocity);
+    if (!data.from_home.empty()) add_cell_loads(data);
     const bool by_rule = !params.contact_tolerance && params.gaps_may_close;
     if (params.scheme != Scheme::gap_anticipating && !by_rule) return;
     for (std::size_t c = 0; c < data.contact_count(); ++c) {

@@ -35,9 +35,13 @@ struct StepData {
 
     ContactSet<Dim> contacts;               ///< at the midpoint configuration
     std::optional<PeriodicCell<Dim>> cell;  ///< the same, if there is one
-    ContactProblem<Dim, Law> problem;       ///< what the solver was given
-    Column<Vector<Dim>> impulse;            ///< r, local axes [N s]
-    std::size_t recalled = 0;               ///< contacts that began with a remembered impulse
+    /// Velocity gradient of the cell that the loads alone would lead to, and that at the end [1/s].
+    Matrix<Dim> cell_rate_free = Matrix<Dim>::Zero(), cell_rate_end = Matrix<Dim>::Zero();
+    /// Of each body from its image at home [m]; empty unless a stress drives the cell.
+    PerBody<Vector<Dim>> from_home;
+    ContactProblem<Dim, Law> problem;  ///< what the solver was given
+    Column<Vector<Dim>> impulse;       ///< r, local axes [N s]
+    std::size_t recalled = 0;          ///< contacts that began with a remembered impulse
     SolveReport report;
 
     /// Mechanical energy that a gap correction gave to gravity in this step [J].
