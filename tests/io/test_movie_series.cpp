@@ -211,8 +211,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(an_own_convex_shape_is_told_by_points_all_around, 
 
 /// Every edge of a closed surface is met once each way, and the faces look outwards.
 BOOST_AUTO_TEST_CASE(the_faces_of_points_all_around_close) {
-    talus::detail::Directions<3> around;
-    talus::detail::look_around(around);
+    const talus::detail::Directions<3> around(24);
     std::vector<std::pair<std::size_t, std::size_t>> edges, back;
     double volume = 0.0;
     for (const auto& face : around.faces)

@@ -45,4 +45,15 @@ void apply_moments(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>&
     }
 }
 
+/// As apply_impulses for the velocity gradient of a cell that a stress drives [1/s].
+template <int Dim>
+Matrix<Dim> cell_change(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
+                        std::span<const Vector<Dim>> r) {
+    Matrix<Dim> moment = Matrix<Dim>::Zero();
+    for (std::size_t c = 0; c < jacobian.cell_lever.size(); ++c)
+        moment -=
+            Vector<Dim>(jacobian.frame[c].transpose() * r[c]) * jacobian.cell_lever[c].transpose();
+    return Matrix<Dim>(inverse_mass.cell.cwiseProduct(moment));
+}
+
 }  // namespace talus

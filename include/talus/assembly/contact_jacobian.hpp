@@ -23,6 +23,7 @@ void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodie
     jacobian.held.clear();
     jacobian.offset = contacts.offset;
     jacobian.cell_rate.setZero();
+    jacobian.cell_lever.clear();
     for (std::size_t c = 0; c < contacts.count(); ++c) {
         const BodyIndex a = contacts.key[c].a, b = contacts.key[c].b;
         jacobian.a[c] = a;
@@ -56,10 +57,21 @@ void hold_surfaces(std::span<const Twist<Dim>> excess, ContactJacobian<Dim>& jac
     }
 }
 
+/// Fills the levers of a cell that is driven by a stress, from what each body is away from its
+/// image at home [m]. O(contacts).
+template <int Dim>
+void assemble_cell_levers(const PerBody<Vector<Dim>>& from_home, ContactJacobian<Dim>& jacobian) {
+    jacobian.cell_lever.resize(jacobian.contact_count());
+    for (std::size_t c = 0; c < jacobian.contact_count(); ++c)
+        jacobian.cell_lever[c] =
+            jacobian.offset[c] + (from_home[jacobian.b[c]] - from_home[jacobian.a[c]]);
+}
+
 /// Fills M^-1 for a configuration, in world axes. O(bodies).
 template <int Dim>
 void assemble_inverse_mass(const Bodies<Dim>& bodies, InverseMass<Dim>& inverse_mass) {
     inverse_mass.free_axes.clear();
+    inverse_mass.cell.setZero();
     inverse_mass.resize(bodies.count());
     for (std::size_t i = 0; i < bodies.count(); ++i) {
         inverse_mass.linear[i] = bodies.inverse_mass[i];
@@ -108,6 +120,16 @@ Vector<Rows> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t
             (rolling_axes<Dim>(jacobian.frame[c]) * (a.angular - b.angular));
         return all;
     }
+}
+
+/// The same while the cell deforms at another rate than the jacobian's [1/s].
+template <int Dim>
+Vector<Dim> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t c,
+                              std::span<const Twist<Dim>> twists, const Matrix<Dim>& cell_rate) {
+    Vector<Dim> u = relative_velocity<Dim>(jacobian, c, twists);
+    if (!jacobian.offset.empty() && cell_rate != jacobian.cell_rate)
+        u -= jacobian.frame[c] * ((cell_rate - jacobian.cell_rate) * jacobian.offset[c]);
+    return u;
 }
 
 }  // namespace talus

@@ -149,6 +149,7 @@ Eigen::SparseMatrix<double> contact_map(const ContactJacobian<Dim>& jacobian,
 template <int Dim, class Law>
 GlobalProblem<Dim, Coulomb<Dim>> global_form(const ContactProblem<Dim, Law>& p) {
     const auto rows = detail::body_rows(p.inverse_mass);
+    p.jacobian.require_imposed_cell("a problem file");
     return {detail::mass_matrix(p.inverse_mass, rows), detail::contact_map(p.jacobian, rows),
             Eigen::VectorXd::Zero(rows.count), p.free_velocity, coulomb_laws<Dim>(p.laws)};
 }

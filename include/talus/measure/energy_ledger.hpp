@@ -87,6 +87,8 @@ class EnergyLedger {
         record_contacts(step);
         if constexpr (requires { step.moment; }) record_rolling(step);
         record_forces(step, bodies);
+        if constexpr (requires { step.from_home; })
+            if (!step.from_home.empty()) record_cell(step, bodies);
         flows_.correction += step.correction_work;
         look_at(bodies);
     }
@@ -168,14 +170,32 @@ class EnergyLedger {
             Vector<Dim> u = u_a - u_b;
             const Vector<Dim>& r = step.impulse[c];
             if (!j.offset.empty()) {
-                const Vector<Dim> of_image = j.frame[c] * j.image_velocity(c);
-                u -= of_image;
-                flows_.cell += r.dot(of_image);
+                const Vector<Dim> imposed = j.image_velocity(c);
+                Vector<Dim> of_image = imposed, of_work = imposed;
+                if (!j.cell_lever.empty()) {
+                    const Matrix<Dim> change = 0.5 * (step.cell_rate_end - j.cell_rate);
+                    of_image += change * j.offset[c];
+                    of_work += change * j.cell_lever[c];
+                }
+                u -= j.frame[c] * of_image;
+                flows_.cell += r.dot(j.frame[c] * of_work);
             }
             flows_.restitution += r[0] * u[0];
             flows_.friction += tangential(r).dot(tangential(u));
             if (a_is_obstacle) flows_.walls -= r.dot(u_a);
             if (w.linear[b] == 0.0) flows_.walls += r.dot(u_b);
+        }
+    }
+
+    /// What bodies that have left a driven cell gained when its rate changed.
+    template <class Step>
+    void record_cell(const Step& step, const Bodies<Dim>& bodies) {
+        const Matrix<Dim> change = step.cell_rate_end - step.problem.jacobian.cell_rate;
+        for (std::size_t i = 0; i < bodies.count(); ++i) {
+            if (bodies.is_obstacle(i) || step.from_home[i].isZero(0.0)) continue;
+            const Vector<Dim> gained = change * step.from_home[i];
+            flows_.cell +=
+                bodies.mass(i) * gained.dot(step.end[i].linear - Vector<Dim>(0.5 * gained));
         }
     }
 

@@ -179,6 +179,17 @@ void BodyMap<Dim>::assign(const ContactJacobian<Dim>& jacobian,
         offset_.push_back(offset_.back() + rows);
         root.push_back(std::move(c));
     }
+    // A cell driven by a stress is one more body, each component that is driven a row.
+    const int cell = static_cast<int>(size_.size());
+    std::vector<std::pair<int, int>> components;
+    for (int i = 0; i < Dim; ++i)
+        for (int j = 0; j < Dim; ++j)
+            if (inverse_mass.cell(i, j) > 0.0) components.emplace_back(i, j);
+    if (jacobian.cell_lever.empty()) components.clear();
+    if (!components.empty()) {
+        size_.push_back(static_cast<int>(components.size()));
+        offset_.push_back(offset_.back() + size_.back());
+    }
     for (std::size_t i = 0; i < jacobian.contact_count(); ++i) {
         const auto side = [&](BodyIndex body, const Vector<Dim>& arm, double sign) {
             const int k = index[static_cast<std::size_t>(body)];
@@ -191,6 +202,16 @@ void BodyMap<Dim>::assign(const ContactJacobian<Dim>& jacobian,
         };
         side(jacobian.a[i], jacobian.arm_a[i], 1.0);
         side(jacobian.b[i], jacobian.arm_b[i], -1.0);
+        if (!components.empty() && !jacobian.cell_lever[i].isZero(0.0)) {
+            Block block(size_.back(), Dim);
+            for (int k = 0; k < size_.back(); ++k) {
+                const auto [along, of] = components[static_cast<std::size_t>(k)];
+                block.row(k) = -std::sqrt(inverse_mass.cell(along, of)) *
+                               jacobian.cell_lever[i][of] *
+                               jacobian.frame[i].col(along).transpose();
+            }
+            add_entry(cell, block);
+        }
         entry_begin_.push_back(entry_.size());
     }
 }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 
 namespace talus {
 
@@ -18,8 +19,10 @@ namespace talus {
 ///
 ///   u_c = F_c ( v_a + w_a x arm_a  -  v_b - w_b x arm_b )
 ///
-/// with the rows of F_c the contact's axes. Body velocities are world-axis twists at the
-/// configuration of the step's midpoint. One array per field; contacts in the order of their keys.
+/// with the rows of F_c the contact's axes; less F_c L lever_c where a stress drives a periodic
+/// cell, whose velocity gradient L then is one more unknown. Body velocities are world-axis twists
+/// at the configuration of the step's midpoint. One array per field; contacts in the order of their
+/// keys.
 template <int Dim>
 requires SpaceDimension<Dim>
 struct ContactJacobian {
@@ -39,7 +42,18 @@ struct ContactJacobian {
     /// is no cell.
     Column<Vector<Dim>> offset;
     Matrix<Dim> cell_rate = Matrix<Dim>::Zero();
+    /// Levers by which impulses r change the rate of a cell that is driven by a stress, by
+    /// - InverseMass::cell o (F^T r) lever^T: offsets between the images at home [m]. Empty of a
+    /// cell whose rate is imposed.
+    Column<Vector<Dim>> cell_lever;
 
+    /// Throws input_error where a stress drives the cell, which is none of that kind of problem.
+    void require_imposed_cell(const char* kind) const {
+        if (!cell_lever.empty())
+            throw input_error(
+                std::string("periodic cell is driven by a stress, but must be imposed: ") + kind +
+                " has no room for it");
+    }
     /// Velocity of the image of b less that of b, world axes [m/s].
     Vector<Dim> image_velocity(std::size_t c) const {
         return offset.empty() ? Vector<Dim>::Zero() : Vector<Dim>(cell_rate * offset[c]);
@@ -63,6 +77,7 @@ struct ContactJacobian {
         if (!held.empty()) detail::make_room(held, n);
         if (!rolling_length.empty()) detail::make_room(rolling_length, n);
         if (!offset.empty()) detail::make_room(offset, n);
+        if (!cell_lever.empty()) detail::make_room(cell_lever, n);
     }
     void resize(std::size_t n) {
         a.resize(n);
@@ -73,6 +88,7 @@ struct ContactJacobian {
         if (!held.empty()) held.resize(n);
         if (!rolling_length.empty()) rolling_length.resize(n);
         if (!offset.empty()) offset.resize(n);
+        if (!cell_lever.empty()) cell_lever.resize(n);
     }
 };
 
@@ -86,6 +102,9 @@ struct InverseMass {
     /// Of each body 1 along the axes of the world along which it moves, 0 along those that are
     /// locked. Empty where none has locked ones.
     Column<Vector<Dim>> free_axes;
+    /// Of each component of the velocity gradient of a periodic cell; zero where it is imposed
+    /// [1/(kg m^2)].
+    Matrix<Dim> cell = Matrix<Dim>::Zero();
 
     std::size_t body_count() const { return linear.size(); }
     /// M^-1 of body k for translations, axis by axis [1/kg].

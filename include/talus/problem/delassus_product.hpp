@@ -65,8 +65,9 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     /// if there are more bodies than ever before.
     void assign(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
         jacobian_ = &jacobian;
-        bodies_.resize(inverse_mass.body_count());
-        for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        const std::size_t count = inverse_mass.body_count();
+        bodies_.resize(count + (jacobian.cell_lever.empty() ? 0 : std::size_t{Dim}));
+        for (std::size_t k = 0; k < count; ++k) {
             if constexpr (std::same_as<Mobility, double>)
                 bodies_[k].inverse_mass = inverse_mass.linear[k];
             else
@@ -78,6 +79,7 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             bodies_[k].linear.setZero();
             bodies_[k].angular.setZero();
         }
+        if (!jacobian.cell_lever.empty()) assign_cell(inverse_mass);
     }
 
     std::size_t contact_count() const {
@@ -124,6 +126,12 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             if (free(row(i).a) && free(row(i).b))
                 islands_.join(static_cast<std::size_t>(row(i).a),
                               static_cast<std::size_t>(row(i).b));
+        for (std::size_t i = 0; i < contact_count(); ++i) {
+            const Row c = row(i);
+            if (c.cell_lever == nullptr || c.cell_lever->isZero(0.0)) continue;
+            const BodyIndex body = free(c.a) ? c.a : c.b;
+            islands_.join(static_cast<std::size_t>(body), bodies_.size() - 1);
+        }
         first_contact_.assign(bodies_.size(), none);
         for (std::size_t i = 0; i < contact_count(); ++i) {
             label[i] = static_cast<std::uint32_t>(i);
@@ -153,14 +161,16 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         const Matrix<Dim>& frame;
         const Vector<Dim>&arm_a, &arm_b;
         BodyIndex a, b;
+        const Vector<Dim>* cell_lever;  ///< null unless a stress drives the cell
         double rolling_length = 0.0;
     };
     Row row(std::size_t i) const {
         const ContactJacobian<Dim>& j = *jacobian_;
+        const Vector<Dim>* lever = j.cell_lever.empty() ? nullptr : &j.cell_lever[i];
         if constexpr (rolls)
-            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i], j.rolling_length[i]};
+            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i], lever, j.rolling_length[i]};
         else
-            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i]};
+            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i], lever};
     }
     /// Axes are locked in the plane, where there is room for it, and beside tensors.
     using Mobility = std::conditional_t<std::same_as<Inertia, double> && rotation_dof<Dim> != 1,
@@ -171,6 +181,23 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         Mobility inverse_mass;
         Inertia inverse_inertia;
     };
+    /// The columns of the velocity gradient of a driven cell stand behind the bodies.
+    template <class List>
+    static auto& cell_column(List& bodies, int j) {
+        return bodies[bodies.size() - static_cast<std::size_t>(Dim - j)];
+    }
+    void assign_cell(const InverseMass<Dim>& inverse_mass) {
+        for (int j = 0; j < Dim; ++j) {
+            Body& x = cell_column(bodies_, j);
+            if constexpr (std::same_as<Mobility, double>)
+                TALUS_CHECK(false, "driven cells in space come with tensors");
+            else
+                for (int d = 0; d < Dim; ++d) x.inverse_mass[d] = inverse_mass.cell(d, j);
+            x.inverse_inertia = Inertia{};
+            x.linear.setZero();
+            x.angular.setZero();
+        }
+    }
     static double along(const Body& x, int d) {
         if constexpr (std::same_as<Mobility, double>)
             return x.inverse_mass;
@@ -188,6 +215,11 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             for (int d = 0; d < Dim; ++d) mobility(d, d) = along(x, d);
             world += mobility + lever.transpose() * (x.inverse_inertia * lever);
         }
+        if (c.cell_lever != nullptr)
+            for (int j = 0; j < Dim; ++j)
+                for (int d = 0; d < Dim; ++d)
+                    world(d, d) +=
+                        (*c.cell_lever)[j] * (*c.cell_lever)[j] * along(cell_column(bodies_, j), d);
         return c.frame * world * c.frame.transpose();
     }
     Matrix<Rows> rolling_block(const Row& c) const {
@@ -215,6 +247,10 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         Vector<Rows> u;
         for (int d = 0; d < Dim; ++d)
             world[d] = (a.linear[d] - b.linear[d]) + (turning_a[d] - turning_b[d]);
+        if (c.cell_lever != nullptr)
+            for (int j = 0; j < Dim; ++j)
+                for (int d = 0; d < Dim; ++d)
+                    world[d] -= (*c.cell_lever)[j] * cell_column(bodies, j).linear[d];
         for (int k = 0; k < Dim; ++k) {
             u[k] = c.frame(k, 0) * world[0];
             for (int d = 1; d < Dim; ++d) u[k] += c.frame(k, d) * world[d];
@@ -238,6 +274,12 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         };
         push(bodies[static_cast<std::size_t>(c.a)], 1.0, impulse, turn(c.arm_a));
         push(bodies[static_cast<std::size_t>(c.b)], -1.0, impulse, turn(c.arm_b));
+        if (c.cell_lever == nullptr) return;
+        for (int j = 0; j < Dim; ++j) {
+            Body& x = cell_column(bodies, j);
+            for (int d = 0; d < Dim; ++d)
+                x.linear[d] -= along(x, d) * (*c.cell_lever)[j] * impulse[d];
+        }
     }
     /// The moment impulse of rolling friction, world axes.
     static AngularVector<Dim> couple(const Row& c, const Vector<Rows>& dr) {
@@ -290,7 +332,8 @@ class RigidBodyOperators {
     decltype(auto) with(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
                         F&& f) {
         if constexpr (rotation_dof<Dim> != 1) {
-            if (!inverse_mass.free_axes.empty() || !has_scalar_inertia(inverse_mass)) {
+            if (!inverse_mass.free_axes.empty() || !jacobian.cell_lever.empty() ||
+                !has_scalar_inertia(inverse_mass)) {
                 tensor_.assign(jacobian, inverse_mass);
                 return f(tensor_);
             }

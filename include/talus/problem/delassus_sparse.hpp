@@ -131,6 +131,7 @@ requires ContactRows<Rows>
 template <int Dim>
 void DelassusSparse<Rows>::assemble(const ContactJacobian<Dim>& jacobian,
                                     const InverseMass<Dim>& inverse_mass) {
+    jacobian.require_imposed_cell("W assembled");
     std::vector<std::vector<std::size_t>> contacts_of(inverse_mass.body_count());
     for (std::size_t i = 0; i < jacobian.contact_count(); ++i) {
         contacts_of[static_cast<std::size_t>(jacobian.a[i])].push_back(i);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <span>
 
 namespace talus {
 
@@ -24,18 +26,27 @@ double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bound
     return h * (bodies.velocity[i].norm() + turning + 2.0 * gained);
 }
 
-/// The same in a periodic cell, of which bodies and images follow the mean motion: the body's own
-/// motion against that, and what deforms between its centre and another within that reach. A wall,
-/// which has no images, is met by the velocities as they are.
+/// Whether there are bodies without bounds.
+inline bool has_walls(std::span<const double> bounding_radius) {
+    return std::any_of(bounding_radius.begin(), bounding_radius.end(),
+                       [](double radius) { return !std::isfinite(radius); });
+}
+
+/// The same where there may be a periodic cell, of which bodies and images follow the mean motion:
+/// the body's own motion against that, and what deforms between its centre and another within that
+/// reach. Walls, which have no images, are met by the velocities as they are.
 template <int Dim>
 double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bounding_radius,
-                          double gained, double h, const PeriodicCell<Dim>& cell) {
+                          double gained, double h, const std::optional<PeriodicCell<Dim>>& cell,
+                          bool walls) {
     const double plain = anticipation_reach(bodies, i, bounding_radius, gained, h);
-    if (!std::isfinite(bounding_radius)) return plain;
+    if (!cell || !std::isfinite(bounding_radius)) return plain;
     const double speed = bodies.velocity[i].norm();
-    const Vector<Dim> own = bodies.velocity[i] - cell.velocity_at(bodies.position[i]);
-    const double strain = h * cell.velocity_gradient().norm();
-    return (plain + h * (own.norm() - speed) + strain * bounding_radius) / (1.0 - strain);
+    const Vector<Dim> own = bodies.velocity[i] - cell->velocity_at(bodies.position[i]);
+    const double strain = h * cell->velocity_gradient().norm();
+    const double way =
+        (plain + h * (own.norm() - speed) + strain * bounding_radius) / (1.0 - strain);
+    return walls ? std::max(way, plain) : way;
 }
 
 /// What a gap adds to the normal velocity that the law sees: consecutive midpoints differ by h

@@ -82,7 +82,8 @@ class GapCorrection {
         for (std::size_t c = 0; c < data.contact_count(); ++c)
             work += 0.5 * data.impulse[c].dot(
                               relative_velocity<Dim>(data.problem.jacobian, c, data.begin) +
-                              relative_velocity<Dim>(data.problem.jacobian, c, data.end));
+                              relative_velocity<Dim>(data.problem.jacobian, c, data.end,
+                                                     data.cell_rate_end));
         if constexpr (has_rolling_rows<Law>)
             for (std::size_t c = 0; c < data.contact_count(); ++c) {
                 const auto a = static_cast<std::size_t>(data.problem.jacobian.a[c]);
@@ -102,15 +103,16 @@ class GapCorrection {
         detail::make_room(problem_.free_velocity, n);
         problem_.free_velocity.assign(n, Vector<Dim>::Zero());
         for (std::size_t c = 0; c < n; ++c) {
-            const double gap =
-                data.contacts.gap[c] +
-                data.h * relative_velocity<Dim>(data.problem.jacobian, c, data.end)[0];
+            const double gap = data.contacts.gap[c] +
+                               data.h * relative_velocity<Dim>(data.problem.jacobian, c, data.end,
+                                                               data.cell_rate_end)[0];
             problem_.free_velocity[c][0] = gap < 0.0 ? params.fraction * gap : gap;
             overlap = overlap || gap < 0.0;
         }
         problem_.jacobian.make_room(n);
         problem_.jacobian = data.problem.jacobian;
         problem_.inverse_mass = data.problem.inverse_mass;
+        problem_.jacobian.cell_lever.clear();  // bodies are moved, the cell stays
         problem_.laws.resize(n);
         return overlap;
     }

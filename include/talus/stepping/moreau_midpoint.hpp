@@ -15,6 +15,7 @@
 #include <talus/dynamics/drift.hpp>
 #include <talus/dynamics/kept_state.hpp>
 #include <talus/solver/concepts.hpp>
+#include <talus/stepping/driven_cell.hpp>
 #include <talus/stepping/gap_anticipating.hpp>
 #include <talus/stepping/step_data.hpp>
 #include <talus/stepping/step_hooks.hpp>
@@ -43,7 +44,7 @@ namespace talus {
 ///   q_end  = q_mid + (h/2) u_end
 ///
 /// A periodic cell deforms to t_mid with the bodies and on to t_end; images move as it does at
-/// t_mid.
+/// t_mid. One that a stress drives is one more body of the problem (CellDrive).
 template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad,
           class Hooks = NoHooks>
 class MoreauMidpoint {
@@ -158,6 +159,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     hold_moving_surfaces(system, data);
     measure_rolling(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
+    if (data.cell && system.cell_drive()) pose_cell(system, data);
     hooks_.matrices_known(system, data);
     hooks_.forces_known(system, data);
     assemble_contacts(system, params, data);
@@ -183,6 +185,7 @@ TALUS_OF_STEP::complete(SystemType& system, Data& data) {
     apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
     if constexpr (has_rolling_rows<Law>)
         apply_moments<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.moment, data.end);
+    if (!data.from_home.empty()) apply_to_cell(system, data);
     hooks_.velocities_known(system, data);
     finish(system, data);
     hooks_.finished(system, data);
@@ -219,6 +222,8 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
     drift(bodies, 0.5 * data.h);
     system.move_cell(0.5 * data.h);
     data.cell = system.cell();
+    data.from_home.clear();
+    if (data.cell) data.cell_rate_free = data.cell_rate_end = data.cell->velocity_gradient();
     data.begin.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         data.begin[i] = bodies.twist(i);
@@ -318,6 +323,7 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
     for (const ContactKey& key : data.contacts.key) data.problem.laws.push_back(system.law_of(key));
     assemble_velocities<Dim, Law>(data.problem.jacobian, data.begin, data.free, data.problem.laws,
                                   data.problem.free_velocity);
+    if (!data.from_home.empty()) add_cell_loads(data);
     const bool by_rule = !params.contact_tolerance && params.gaps_may_close;
     if (params.scheme != Scheme::gap_anticipating && !by_rule) return;
     for (std::size_t c = 0; c < data.contact_count(); ++c) {

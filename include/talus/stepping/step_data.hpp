@@ -48,8 +48,12 @@ struct StepData {
 
     ContactSet<Dim> contacts;               ///< at the midpoint configuration
     std::optional<PeriodicCell<Dim>> cell;  ///< the same, if there is one
-    ContactProblem<Dim, Law> problem;       ///< what the solver was given
-    Column<Vector<Dim>> impulse;            ///< r, local axes [N s]
+    /// Velocity gradient of the cell that the loads alone would lead to, and that at the end [1/s].
+    Matrix<Dim> cell_rate_free = Matrix<Dim>::Zero(), cell_rate_end = Matrix<Dim>::Zero();
+    /// Of each body from its image at home [m]; empty unless a stress drives the cell.
+    PerBody<Vector<Dim>> from_home;
+    ContactProblem<Dim, Law> problem;  ///< what the solver was given
+    Column<Vector<Dim>> impulse;       ///< r, local axes [N s]
     /// Moment impulses of rolling friction on the first body of each contact, world axes [N m s];
     /// empty for laws without.
     Column<AngularVector<Dim>> moment;

@@ -77,7 +77,8 @@ AngularVector<Dim> contact_moment(const StepData<Dim, Law>& data, std::size_t c)
 template <int Dim, class Law>
 Vector<Dim> contact_velocity(const StepData<Dim, Law>& data, std::size_t c) {
     TALUS_CHECK(c < data.contact_count(), "a contact of this step");
-    return relative_velocity<Dim>(data.problem.jacobian, c, std::span<const Twist<Dim>>(data.end));
+    return relative_velocity<Dim>(data.problem.jacobian, c, std::span<const Twist<Dim>>(data.end),
+                                  data.cell_rate_end);
 }
 
 namespace detail {

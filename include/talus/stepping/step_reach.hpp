@@ -59,21 +59,11 @@ struct StepReach {
     void anticipate(const System& system, const StepParams& params, const Data& data) {
         // What is anticipated needs no more: it is held before it opens.
         const double touching = params.contact_tolerance.value_or(0.0);
-        const auto in_open_space = [&](std::size_t i) {
-            return anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
-                                           fall[i] / data.h, data.h);
-        };
-        const bool walls =
-            std::any_of(system.bounding_radius().begin(), system.bounding_radius().end(),
-                        [](double radius) { return !std::isfinite(radius); });
-        const auto in_cell = [&](std::size_t i) {
+        const bool walls = data.cell && has_walls(system.bounding_radius());
+        for (std::size_t i = 0; i < system.bodies.count(); ++i) {
             const double way =
                 anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
-                                        fall[i] / data.h, data.h, *data.cell);
-            return walls ? std::max(way, in_open_space(i)) : way;
-        };
-        for (std::size_t i = 0; i < system.bodies.count(); ++i) {
-            const double way = data.cell ? in_cell(i) : in_open_space(i);
+                                        fall[i] / data.h, data.h, data.cell, walls);
             reach[i] = std::max(reach[i], 0.5 * touching + way);
             motion.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }

@@ -6,6 +6,7 @@
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/cell_drive.hpp>
 #include <talus/dynamics/forces.hpp>
 #include <talus/dynamics/periodic_cell.hpp>
 #include <talus/dynamics/place.hpp>
@@ -164,11 +165,8 @@ struct System {
 
     /// The periodic cell, if there is one, at `time()`.
     const std::optional<PeriodicCell<Dim>>& cell() const { return cell_; }
-    /// From now on bodies meet each other's images. Walls without bounds (half-spaces, holes) have
-    /// no images and must be the same ones from everywhere. Throws input_error, and changes
-    /// nothing, where lattice vectors lead out of a half-space or of a hole, and for a free body as
-    /// wide (as the ball about its centre that holds it) as the shortest lattice vector is long: it
-    /// would meet itself.
+    /// From now on bodies meet each other's images; walls without bounds have none. Throws
+    /// input_error, and changes nothing, for what does not fit into the cell (require_room).
     void set_cell(const PeriodicCell<Dim>& cell) {
         require_between_steps();
         require_room<Dim, ShapeType>(cell, bodies, shapes(), bounding_radius());
@@ -178,21 +176,26 @@ struct System {
         require_between_steps();
         cell_.reset();
     }
-    /// How the cell deforms from now on [1/s]. Throws input_error if it is not finite or there is
-    /// no cell.
+    /// How the cell deforms from now on [1/s]. Throws, and changes the velocities of bodies that
+    /// have left the cell (to be booked: record_exchange), as change_rate says.
     void set_velocity_gradient(const Matrix<Dim>& rate) {
         require_between_steps();
-        if (!cell_)
-            throw input_error("velocity gradient is of no cell, but must be of one: call set_cell");
-        cell_->set_velocity_gradient(rate);
+        change_rate(cell_, bodies, bounding_radius(), rate);
     }
-    /// Deforms the cell for a time [s], within a step. Throws as set_cell does.
+    /// Lets a stress drive the cell, or (nullopt) leaves it at its rate; like forces no part of
+    /// `state`. Throws input_error where the drive is not as it must be.
+    void drive_cell(const std::optional<CellDrive<Dim>>& drive) {
+        require_between_steps();
+        if (drive) drive->require_valid();
+        drive_ = drive;
+    }
+    const std::optional<CellDrive<Dim>>& cell_drive() const { return drive_; }
+    /// Deforms the cell for a time [s], within a step.
     void move_cell(double duration) {
         if (!cell_) return;
         deform(*cell_, duration);
         require_room<Dim, ShapeType>(*cell_, bodies, shapes(), bounding_radius());
     }
-    /// Takes that back.
     void put_cell(const std::optional<PeriodicCell<Dim>>& cell) noexcept { cell_ = cell; }
 
     /// The law of a contact: that of the two bodies' materials.
@@ -225,6 +228,7 @@ struct System {
     Column<PlacedObstacle<Dim>> placed_;  // in the order of obstacles
     BodyShapes<Dim, ShapeType> shapes_;
     std::optional<PeriodicCell<Dim>> cell_;
+    std::optional<CellDrive<Dim>> drive_;
 };
 
 template <int Dim, class Law, class ShapeType>
@@ -383,6 +387,7 @@ void System<Dim, Law, ShapeType>::restore(const RunState<Dim, ShapeType>& state)
     other.time_ = state.time;
     if (state.cell) other.set_cell(*state.cell);
     other.forces = std::move(forces);
+    other.drive_ = drive_;
     *this = std::move(other);
 }
 
