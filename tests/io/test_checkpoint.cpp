@@ -2,6 +2,7 @@
 // A run with stops makes the bits of one without; a file is whole or refused.
 #include <talus/io/checkpoint/checkpoint.hpp>
 #include <talus/io/write_file.hpp>
+#include <talus/law/rolling_coulomb.hpp>
 #include <talus/measure/energy_ledger.hpp>
 #include <talus/sample/random.hpp>
 #include <talus/solver/solver_registry.hpp>
@@ -213,6 +214,35 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(books_and_summaries_are_carried_along, D, dimensio
     BOOST_TEST((talus::record_of(same) == talus::record_of(books)));
     BOOST_TEST(to_string(summary) == to_string(yard.summary));
     BOOST_TEST(books.closure() < 1e-12);
+}
+
+template <int Dim>
+struct RollingTypes : talus::SimulationTypes<Dim> {
+    using Law = talus::RollingFriction<Dim>;
+};
+
+// The moments of rolling friction are written too, and only where there are some.
+BOOST_AUTO_TEST_CASE_TEMPLATE(rolling_friction_goes_on_with_the_same_bits, D, dimensions) {
+    constexpr int Dim = D::value;
+    using V = talus::Vector<Dim>;
+    const TemporaryFolder folder("checkpoint_rolling");
+    using Simulation = talus::Simulation<Dim, RollingTypes<Dim>>;
+    const talus::RollingFriction<Dim> law{.mu = 0.5, .mu_r = 0.1};
+    Simulation through(law), next(law);
+    auto& system = through.system();
+    system.gravity = V(3.0 * V::Unit(0) - 9.81 * V::Unit(Dim - 1));
+    system.add_obstacle(talus::HalfSpace<Dim>{V::Unit(Dim - 1), 0.0});
+    for (int k = 0; k < 4; ++k)
+        system.add(talus::Ball<Dim>{0.1}, 1000.0,
+                   {V(0.1 * V::Unit(Dim - 1) + 0.19 * k * V::Unit(0)), {}});
+    BOOST_TEST(through.run(0.05).missed == 0);
+    talus::save_checkpoint(folder / "balls.h5", through, "balls", {});
+    talus::load_checkpoint(folder / "balls.h5", next, "balls");
+    BOOST_TEST(numbers(next).reals.contains("contacts/moment_world"));
+    BOOST_TEST(!numbers(Yard<Dim>().sim).reals.contains("contacts/moment_world"));
+    for (auto* sim : {&through, &next})
+        for (int k = 0; k < 50; ++k) (void)sim->step();
+    BOOST_TEST(same_bits(numbers(next), numbers(through)));
 }
 
 BOOST_AUTO_TEST_CASE(a_record_that_is_not_there_is_refused_by_name) {
