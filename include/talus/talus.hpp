@@ -9,7 +9,7 @@
 /// (problem/matrix_problem.hpp), rolling friction, which only these can have
 /// (law/rolling_coulomb.hpp), correction of positions (stepping/gap_correction.hpp), walls that
 /// press (dynamics/servo.hpp), the measures of networks, chains, cuts, rings, series and directions
-/// about an axis, and the folders sample, feed and io.
+/// about an axis, and the folders sample, feed, lagrangian and io.
 #include <talus/collision/brute_force.hpp>
 #include <talus/core/version.hpp>
 #include <talus/law/any_law.hpp>
