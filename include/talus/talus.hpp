@@ -8,8 +8,8 @@
 /// those by name (solver/any_solver.hpp, solver/solver_registry.hpp), problems given by matrices
 /// (problem/matrix_problem.hpp), rolling friction (law/rolling_coulomb.hpp), correction of
 /// positions (stepping/gap_correction.hpp), walls that press (dynamics/servo.hpp), the measures of
-/// networks, chains, cuts, rings, series and directions about an axis, and the folders sample, feed
-/// and io.
+/// networks, chains, cuts, rings, series and directions about an axis, and the folders sample,
+/// feed, lagrangian and io.
 #include <talus/collision/brute_force.hpp>
 #include <talus/core/version.hpp>
 #include <talus/law/any_law.hpp>

@@ -28,6 +28,7 @@ LAYERS = {
     "collision": {"core", "spatial", "geometry"},
     "assembly": {"core", "spatial", "collision", "dynamics", "law", "problem"},
     "stepping": PHYSICS | ALGEBRA | {"assembly"},
+    "lagrangian": {"core", "law", "problem", "solver/concepts", "solver/report", "solver/sweeps", "stepping/step_hooks"},
     "feed": PHYSICS | {"law", "sample", "stepping/system"},
     "sample": {"core", "spatial", "geometry", "geometry/hull", "collision/gjk", "dynamics"},
     "measure": PHYSICS | {"law", "problem"},

@@ -109,6 +109,14 @@ class FaultySolver {
         faulty_.laws = faulty(problem.laws);
         return claimed([&]() -> const auto& { return solver_.solve(faulty_, r); });
     }
+    const talus::SolveReport& solve(talus::AssembledProblem<Dim, Law<Dim>>& problem,
+                                    std::span<V<Dim>> r) {
+        faulty_.laws = faulty(problem.laws);
+        return claimed([&]() -> const auto& {
+            return solver_.solve(problem.delassus, std::span<const V<Dim>>(problem.free_velocity),
+                                 std::span<const FaultyLaw<Dim>>(faulty_.laws), r);
+        });
+    }
     const talus::SolveReport& solve(const DenseProblem<Dim>& problem, std::span<V<Dim>> r) {
         DenseDelassus<Dim> w(problem.w);
         faulty_.laws = faulty(problem.laws);

@@ -226,9 +226,12 @@ class TrialRecord {
 
     static constexpr double rounding_bound = 1e-12;
 
+    /// Takes in what the solver of one step says: all residuals have to stay below 100 times the
+    /// tolerance, or 1e-12. Worlds and machines that a trial makes call it themselves.
+    void solved(double residual, double tolerance);
+
   protected:
     bool draws() const { return drawing_.empty() && !params_.stop_at_failure; }
-    void solved(double residual, double tolerance);
 
   private:
     TrialParams params_;

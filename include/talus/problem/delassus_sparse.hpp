@@ -51,6 +51,26 @@ class DelassusSparse {
         for (std::size_t i = 0; i < n; ++i) blocks.push_back({i, i, Matrix<Rows>::Zero()});
         compress(n, blocks);
     }
+    /// In place of what there is: W of n contacts, `block(i, j)` being W_ij. Blocks off the
+    /// diagonal that are zero are not stored. Asks for all n^2 blocks, so it is for systems whose
+    /// contacts are few; allocates only for more blocks than ever before.
+    template <class Block>
+    void fill(std::size_t n, const Block& block) {
+        row_begin_.assign(1, 0);
+        column_.clear();
+        value_.clear();
+        diagonal_.clear();
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) {
+                const Matrix<Rows> w = block(i, j);
+                if (i != j && w.is_zero()) continue;
+                if (i == j) diagonal_.push_back(value_.size());
+                column_.push_back(j);
+                value_.push_back(w);
+            }
+            row_begin_.push_back(value_.size());
+        }
+    }
 
     std::size_t contact_count() const { return diagonal_.size(); }
     std::size_t block_count() const { return value_.size(); }
