@@ -4,7 +4,7 @@
 // and carries a bird by a spring; impacts and friction make it peck. Contacts are given as gaps and
 // tangential displacements, and differentiated by talus.
 //
-// Sample run:  examples/run 10_woodpecker
+// Sample run:  examples/run 11_woodpecker
 #include <talus/lagrangian/simulation.hpp>
 
 #include <cstdio>
