@@ -81,8 +81,7 @@ const Register f03(
      .kind = Class::D1,
      .why = "Bounces are seen at midpoints of steps: first order.",
      .source = "Holmes 1982; Tufillaro and Albano 1986; Luo and Han 1996.",
-     .catches = {Fault::restitution_weight, Fault::obstacle_velocity_forgotten,
-                 Fault::end_point_drift}},
+     .catches = {Fault::restitution_weight, Fault::obstacle_velocity_forgotten}},
     run, nullptr, __FILE__);
 
 }  // namespace F03
