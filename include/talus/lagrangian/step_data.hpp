@@ -24,13 +24,13 @@ struct LagrangianStepData {
     double h = 0.0;        ///< [s]
     double t_end() const { return t_begin + h; }
 
-    Coordinates q_begin, q_mid, q_end;
-    Coordinates begin;  ///< u at the beginning
-    Coordinates free;   ///< u at the end, had there been no contact impulses
-    Coordinates end;    ///< u at the end
-    typename Types::MassMatrix mass;
+    Coordinates q_begin = none(), q_mid = none(), q_end = none();
+    Coordinates begin = none();  ///< u at the beginning
+    Coordinates free = none();   ///< u at the end, had there been no contact impulses
+    Coordinates end = none();    ///< u at the end
+    typename Types::MassMatrix mass = Types::MassMatrix::Zero(unused, unused);
     MassFactor<Types::dof> factor;  ///< of `mass`
-    Coordinates force;              ///< F at the velocity that it was taken at
+    Coordinates force = none();     ///< F at the velocity that it was taken at
 
     typename Types::Contacts contacts;  ///< all of them, at the midpoint
     Column<std::size_t> closed;         ///< places in `contacts` of those that are effective
@@ -61,6 +61,11 @@ struct LagrangianStepData {
             work += 0.5 * impulse[c].dot(begin_velocity(c) + end_velocity(c));
         return work;
     }
+
+  private:
+    /// Before the first step.
+    static constexpr Eigen::Index unused = Types::dof == Eigen::Dynamic ? 0 : Types::dof;
+    static Coordinates none() { return Coordinates::Zero(unused); }
 };
 
 }  // namespace talus

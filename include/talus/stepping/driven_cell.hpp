@@ -26,7 +26,8 @@ void add_cell_loads(StepData<Dim, Law>& data) {
     const ContactJacobian<Dim>& jacobian = data.problem.jacobian;
     const Matrix<Dim> change = data.cell_rate_free - jacobian.cell_rate;
     for (std::size_t c = 0; c < data.contact_count(); ++c)
-        data.problem.free_velocity[c] -= jacobian.frame[c] * (change * jacobian.cell_lever[c]);
+        data.problem.free_velocity[c].template head<Dim>() -=
+            jacobian.frame[c] * (change * jacobian.cell_lever[c]);
 }
 
 /// Gives the cell its rate at the end of the step, and bodies that have left it their part.
