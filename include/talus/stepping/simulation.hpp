@@ -156,9 +156,7 @@ requires SpaceDimension<Dim> Simulation<Dim, Types>::Simulation(SystemType syste
       time_(time_start_),
       removals_(system_.bodies.removals()) {
     require_positive("step size h", params_.h);
-    if (params_.step.contact_tolerance)
-        require_non_negative("contact tolerance", *params_.step.contact_tolerance);
-    require_non_negative("skin", params_.step.skin);
+    require_valid(params_.step);
 }
 
 template <int Dim, class Types>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/input.hpp>
 #include <talus/dynamics/forces.hpp>
 
 #include <algorithm>
@@ -29,6 +30,14 @@ struct StepParams {
     /// bodies. Affects speed alone.
     double skin = 0.2;
 };
+
+/// Throws input_error for a setting out of range. (Not made part of its callers: GCC 12 would warn
+/// there of a tolerance that is not given.)
+[[gnu::noinline]] inline void require_valid(const StepParams& params) {
+    if (params.contact_tolerance)
+        require_non_negative("contact tolerance", *params.contact_tolerance);
+    require_non_negative("skin", params.skin);
+}
 
 /// The gap up to which a contact counts as closed [m]: the contact tolerance, if there is one.
 /// Otherwise it is 0.01 of `fall`, as far as that is between 1e-5 and 1e-3 of `half_thickness`
