@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_sheared_lattice_is_the_same_lattice, D, dimensio
         BOOST_TEST(std::abs(gaps(one)[c] - gaps(other)[c]) < 1e-13);
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(permuted_bodies_have_the_same_gaps_and_normals, D, dimensions) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(permuted_bodies_have_the_same_contacts_to_rounding, D, dimensions) {
     constexpr int Dim = D::value;
     random_geometry::Generator g(9);
     auto crowd = random_crowd<Dim>(g, Dim == 2 ? 20 : 40, true);
@@ -210,7 +210,16 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(permuted_bodies_have_the_same_gaps_and_normals, D,
     };
     const auto forwards = contacts_of(crowd, false);
     BOOST_TEST(forwards.size() > 5u);
-    BOOST_TEST((forwards == contacts_of(turned, true)));
+    const auto back = contacts_of(turned, true);
+    BOOST_TEST_REQUIRE(back.size() == forwards.size());
+    for (std::size_t c = 0; c < forwards.size(); ++c) {
+        const auto& [a, b, image, gap, normal] = forwards[c];
+        const auto& [other_a, other_b, other_image, other_gap, other_normal] = back[c];
+        BOOST_TEST((std::tie(a, b, image) == std::tie(other_a, other_b, other_image)));
+        BOOST_TEST(std::abs(gap - other_gap) < 1e-14);
+        for (std::size_t d = 0; d < normal.size(); ++d)
+            BOOST_TEST(std::abs(normal[d] - other_normal[d]) < 1e-13);
+    }
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(walls_have_no_images, D, dimensions) {
