@@ -21,7 +21,7 @@ namespace talus {
 /// A stress that drives a periodic cell, component by component of its velocity gradient L: where
 /// `driven(i, j)` is set, L_ij obeys
 ///
-///     mass dL_ij/dt = V (stress_ij - sigma_ij) - mass damping L_ij
+///   mass dL_ij/dt = V (stress_ij - sigma_ij) - mass damping L_ij
 ///
 /// with sigma what the contacts with images exert (cell_stress, where bodies do not accelerate);
 /// other components stay as they were set. The cell has a mass as the piston of a press has one

@@ -24,8 +24,10 @@ namespace talus {
 /// that displacements and momentum need no book of crossings, and a step changes the velocity of
 /// nobody who touches nobody ([LeesEdwards1972] say the same with wrapped positions).
 ///
-///     sim.system().set_cell(PeriodicCell<2>::box({0.1, 0.1}));
-///     sim.system().set_velocity_gradient(simple_shear);   // [1/s], from now on
+///     sim.system().set_cell(PeriodicCell<3>::box({0.1, 0.1, 0.1}));
+///     Matrix<3> simple_shear = Matrix<3>::Zero();
+///     simple_shear(0, 2) = 0.5;                          // [1/s]
+///     sim.system().set_velocity_gradient(simple_shear);  // from now on
 template <int Dim>
 requires SpaceDimension<Dim>
 class PeriodicCell {

@@ -74,15 +74,15 @@ concept GivesGaps = requires(const S& s, const typename LagrangianTypes<S>::Numb
 
 /// A mechanical system with coordinates q and velocities u = dq/dt [Moreau, section 1.2 and (3)],
 ///
-///     A(t, q) du = F(t, q, u) dt + G^T dr ,     U = G u + W ,
+///   A(t, q) du = F(t, q, u) dt + G^T dr ,     U = G u + W ,
 ///
 /// with as many coordinates as the system has degrees of freedom. (Other velocities than dq/dt, as
 /// the spins of a body in space, are those of Simulation.) It says:
 ///
-///     static constexpr int dof = 2;                             // or Eigen::Dynamic
-///     void mass(double t, const auto& q, auto& a) const;        // A, in full, both triangles
-///     void force(double t, const auto& q, const auto& u, auto& f) const;  // F, Coriolis included
-///     void contacts(double t, const auto& q, auto& contacts) const;       // a ContactList
+///   static constexpr int dof = 2;                             // or Eigen::Dynamic
+///   void mass(double t, const auto& q, auto& a) const;        // A, in full, both triangles
+///   void force(double t, const auto& q, const auto& u, auto& f) const;  // F, Coriolis included
+///   void contacts(double t, const auto& q, auto& contacts) const;       // a ContactList
 ///
 /// or, in place of `contacts`, `void gaps(const auto& t, const auto& q, auto& contacts) const` (a
 /// GapList): t and q are then numbers that carry derivatives. It calls `sin(q[0])`, not

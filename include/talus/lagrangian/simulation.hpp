@@ -27,16 +27,16 @@ using LagrangianSolver =
 /// A mechanical system in coordinates of its own, and its clock: Moreau's midpoint step with exact
 /// friction and impacts for machines, robots and models of few degrees of freedom.
 ///
-///     struct Bouncer {
-///         static constexpr int dof = 1;
-///         void mass(double, const auto&, auto& a) const { a << 2.0; }
-///         void force(double, const auto&, const auto&, auto& f) const { f << -2.0 * 9.81; }
-///         void gaps(const auto&, const auto& q, auto& contacts) const {
-///             contacts.add(q[0], {.law = {}, .restitution_normal = 0.8});
-///         }
-///     };
-///     LagrangianSimulation sim(Bouncer{}, Eigen::Vector<double, 1>(1.0), {.h = 1e-4});
-///     const LagrangianSummary run = sim.run(2.0);
+///   struct Bouncer {
+///       static constexpr int dof = 1;
+///       void mass(double, const auto&, auto& a) const { a << 2.0; }
+///       void force(double, const auto&, const auto&, auto& f) const { f << -2.0 * 9.81; }
+///       void gaps(const auto&, const auto& q, auto& contacts) const {
+///           contacts.add(q[0], {.law = {}, .restitution_normal = 0.8});
+///       }
+///   };
+///   LagrangianSimulation sim(Bouncer{}, Eigen::Vector<double, 1>(1.0), {.h = 1e-4});
+///   const LagrangianSummary run = sim.run(2.0);
 template <LagrangianSystem System, class Solver = LagrangianSolver<System>, class Hooks = NoHooks>
 class LagrangianSimulation {
   public:

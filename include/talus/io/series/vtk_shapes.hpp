@@ -26,8 +26,8 @@ struct VtkShapesParams {
 
 /// The shapes of bodies where they are, as polygons with numbers of each body, for a VtkSeries:
 ///
-///     VtkShapes<3> shapes(sim.system().bodies, sim.system().shapes());
-///     series.add(sim.time(), shapes.data());
+///     const VtkShapes<3> shapes(sim.system().bodies, sim.system().shapes());
+///     const VtkPolyData& polygons = shapes.data();  // for VtkSeries::add
 ///
 /// Sharp shapes are drawn by their own faces, in the plane by their outline; of round ones those
 /// points that are farthest in directions all around. What a shape is of a compound, or holds, is
