@@ -79,7 +79,8 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             bodies_[k].linear.setZero();
             bodies_[k].angular.setZero();
         }
-        if (!jacobian.cell_lever.empty()) assign_cell(inverse_mass);
+        driven_ = !jacobian.cell_lever.empty();
+        if (driven_) assign_cell(inverse_mass);
     }
 
     std::size_t contact_count() const {
@@ -90,10 +91,10 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     Matrix<Rows> diagonal_block(std::size_t i) const {
         const Row c = row(i);
         if constexpr (rolls) {
-            const Matrix<Rows> w = rolling_block(c);
+            const Matrix<Rows> w = rolling_block(i, c);
             return 0.5 * (w + w.transpose());
         } else {
-            const Matrix<Dim> w = block_of_space(c);
+            const Matrix<Dim> w = block_of_space(i, c);
             return 0.5 * (w + w.transpose());
         }
     }
@@ -105,7 +106,7 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         TALUS_CHECK(u.size() == contact_count(), "one velocity per contact");
         scratch_ = bodies_;
         accumulate(r, scratch_);
-        for (std::size_t i = 0; i < contact_count(); ++i) u[i] = velocity(row(i), scratch_);
+        for (std::size_t i = 0; i < contact_count(); ++i) u[i] = velocity(i, scratch_);
     }
 
     /// Writes to label[i] a number below contact_count() that contact i shares with the contacts
@@ -128,7 +129,7 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
                               static_cast<std::size_t>(row(i).b));
         for (std::size_t i = 0; i < contact_count(); ++i) {
             const Row c = row(i);
-            if (c.cell_lever == nullptr || c.cell_lever->isZero(0.0)) continue;
+            if (!driven_ || jacobian_->cell_lever[i].isZero(0.0)) continue;
             const BodyIndex body = free(c.a) ? c.a : c.b;
             islands_.join(static_cast<std::size_t>(body), bodies_.size() - 1);
         }
@@ -150,27 +151,27 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     }
 
     /// Row i of W r for the present impulses [m/s].
-    Vector<Rows> velocity(std::size_t i) const { return velocity(row(i), bodies_); }
+    Vector<Rows> velocity(std::size_t i) const { return velocity(i, bodies_); }
 
     /// r_i += dr.
-    void add(std::size_t i, const Vector<Rows>& dr) { add(row(i), dr, bodies_); }
+    void add(std::size_t i, const Vector<Rows>& dr) { add(i, dr, bodies_); }
 
   private:
     static constexpr bool rolls = Rows != Dim;
+    /// In space a cell that a stress drives comes with tensors.
+    static constexpr bool takes_cells = !std::same_as<Inertia, double> || rotation_dof<Dim> == 1;
     struct Row {
         const Matrix<Dim>& frame;
         const Vector<Dim>&arm_a, &arm_b;
         BodyIndex a, b;
-        const Vector<Dim>* cell_lever;  ///< null unless a stress drives the cell
         double rolling_length = 0.0;
     };
     Row row(std::size_t i) const {
         const ContactJacobian<Dim>& j = *jacobian_;
-        const Vector<Dim>* lever = j.cell_lever.empty() ? nullptr : &j.cell_lever[i];
         if constexpr (rolls)
-            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i], lever, j.rolling_length[i]};
+            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i], j.rolling_length[i]};
         else
-            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i], lever};
+            return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i]};
     }
     /// Axes are locked in the plane, where there is room for it, and beside tensors.
     using Mobility = std::conditional_t<std::same_as<Inertia, double> && rotation_dof<Dim> != 1,
@@ -206,7 +207,7 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     }
 
     /// The rows of space of W_ii.
-    Matrix<Dim> block_of_space(const Row& c) const {
+    Matrix<Dim> block_of_space(std::size_t i, const Row& c) const {
         Matrix<Dim> world = Matrix<Dim>::Zero();
         for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
             const Body& x = bodies_[static_cast<std::size_t>(body)];
@@ -215,18 +216,18 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             for (int d = 0; d < Dim; ++d) mobility(d, d) = along(x, d);
             world += mobility + lever.transpose() * (x.inverse_inertia * lever);
         }
-        if (c.cell_lever != nullptr)
+        if (driven_)
             for (int j = 0; j < Dim; ++j)
                 for (int d = 0; d < Dim; ++d)
-                    world(d, d) +=
-                        (*c.cell_lever)[j] * (*c.cell_lever)[j] * along(cell_column(bodies_, j), d);
+                    world(d, d) += jacobian_->cell_lever[i][j] * jacobian_->cell_lever[i][j] *
+                                   along(cell_column(bodies_, j), d);
         return c.frame * world * c.frame.transpose();
     }
-    Matrix<Rows> rolling_block(const Row& c) const {
+    Matrix<Rows> rolling_block(std::size_t i, const Row& c) const {
         const auto axes = (c.rolling_length * rolling_axes<Dim>(c.frame)).eval();
         Matrix<Rows> w;
         w.setZero();
-        w.template topLeftCorner<Dim, Dim>() = block_of_space(c);
+        w.template topLeftCorner<Dim, Dim>() = block_of_space(i, c);
         for (const auto& [body, arm] : {std::pair{c.a, c.arm_a}, std::pair{c.b, c.arm_b}}) {
             const Body& x = bodies_[static_cast<std::size_t>(body)];
             const auto turn = (x.inverse_inertia * axes.transpose()).eval();  // by unit moments
@@ -247,10 +248,6 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         Vector<Rows> u;
         for (int d = 0; d < Dim; ++d)
             world[d] = (a.linear[d] - b.linear[d]) + (turning_a[d] - turning_b[d]);
-        if (c.cell_lever != nullptr)
-            for (int j = 0; j < Dim; ++j)
-                for (int d = 0; d < Dim; ++d)
-                    world[d] -= (*c.cell_lever)[j] * cell_column(bodies, j).linear[d];
         for (int k = 0; k < Dim; ++k) {
             u[k] = c.frame(k, 0) * world[0];
             for (int d = 1; d < Dim; ++d) u[k] += c.frame(k, d) * world[d];
@@ -266,19 +263,41 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             impulse[d] = c.frame(0, d) * dr[0];
             for (int k = 1; k < Dim; ++k) impulse[d] += c.frame(k, d) * dr[k];
         }
-        const auto turn = [&](const Vector<Dim>& arm) {
-            if constexpr (rolls)
-                return AngularVector<Dim>(moment<Dim>(arm, impulse) + couple(c, dr));
-            else
-                return moment<Dim>(arm, impulse);
-        };
-        push(bodies[static_cast<std::size_t>(c.a)], 1.0, impulse, turn(c.arm_a));
-        push(bodies[static_cast<std::size_t>(c.b)], -1.0, impulse, turn(c.arm_b));
-        if (c.cell_lever == nullptr) return;
+        if constexpr (rolls) {
+            const AngularVector<Dim> rolling = couple(c, dr);
+            push(bodies[static_cast<std::size_t>(c.a)], 1.0, impulse, c.arm_a, &rolling);
+            push(bodies[static_cast<std::size_t>(c.b)], -1.0, impulse, c.arm_b, &rolling);
+        } else {
+            push(bodies[static_cast<std::size_t>(c.a)], 1.0, impulse, c.arm_a);
+            push(bodies[static_cast<std::size_t>(c.b)], -1.0, impulse, c.arm_b);
+        }
+    }
+    // A driven cell stands apart and out of line: few have one, and contacts are visited often.
+    Vector<Rows> velocity(std::size_t i, const Column<Body>& bodies) const {
+        Vector<Rows> u = velocity(row(i), bodies);
+        if (takes_cells && driven_) [[unlikely]]
+            subtract_cell(i, bodies, u);
+        return u;
+    }
+    [[gnu::noinline]] void subtract_cell(std::size_t i, const Column<Body>& bodies,
+                                         Vector<Rows>& u) const {
+        const Vector<Dim>& lever = jacobian_->cell_lever[i];
+        Vector<Dim> world = Vector<Dim>::Zero();
+        for (int j = 0; j < Dim; ++j) world += lever[j] * cell_column(bodies, j).linear;
+        u.template head<Dim>() -= row(i).frame * world;
+    }
+    void add(std::size_t i, const Vector<Rows>& dr, Column<Body>& bodies) const {
+        add(row(i), dr, bodies);
+        if (takes_cells && driven_) [[unlikely]]
+            add_to_cell(i, dr, bodies);
+    }
+    [[gnu::noinline]] void add_to_cell(std::size_t i, const Vector<Rows>& dr,
+                                       Column<Body>& bodies) const {
+        const Vector<Dim>& lever = jacobian_->cell_lever[i];
+        const Vector<Dim> impulse = row(i).frame.transpose() * Vector<Dim>(dr.template head<Dim>());
         for (int j = 0; j < Dim; ++j) {
             Body& x = cell_column(bodies, j);
-            for (int d = 0; d < Dim; ++d)
-                x.linear[d] -= along(x, d) * (*c.cell_lever)[j] * impulse[d];
+            for (int d = 0; d < Dim; ++d) x.linear[d] -= along(x, d) * lever[j] * impulse[d];
         }
     }
     /// The moment impulse of rolling friction, world axes.
@@ -296,8 +315,10 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             return sum;
         }
     }
-    static void push(Body& x, double sign, const Vector<Dim>& impulse,
-                     const AngularVector<Dim>& turn) {
+    static void push(Body& x, double sign, const Vector<Dim>& impulse, const Vector<Dim>& arm,
+                     [[maybe_unused]] const AngularVector<Dim>* rolling = nullptr) {
+        AngularVector<Dim> turn = moment<Dim>(arm, impulse);
+        if constexpr (rolls) turn += *rolling;
         for (int d = 0; d < Dim; ++d)
             x.linear[d] = detail::unpaired(x.linear[d] + (sign * along(x, d)) * impulse[d]);
         for (int d = 0; d < rotation_dof<Dim>; ++d)
@@ -308,11 +329,12 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             x.linear.setZero();
             x.angular.setZero();
         }
-        for (std::size_t i = 0; i < contact_count(); ++i) add(row(i), r[i], bodies);
+        for (std::size_t i = 0; i < contact_count(); ++i) add(i, r[i], bodies);
     }
 
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     const ContactJacobian<Dim>* jacobian_ = nullptr;
+    bool driven_ = false;  // the cell, by a stress
     Column<Body> bodies_;
     mutable Column<Body> scratch_;
     mutable Islands islands_;
