@@ -106,10 +106,9 @@ void append_core_contacts(const CoreView<Dim>& a, const Pose<Dim>& pose_a, const
 
 }  // namespace talus
 
-#define TALUS_CORE_CONTACTS(Dim)                                                                \
-    void talus::append_core_contacts<Dim>(const talus::CoreView<Dim>&, const talus::Pose<Dim>&, \
-                                          const talus::CoreView<Dim>&, const talus::Pose<Dim>&, \
-                                          double, talus::Column<talus::ContactPoint<Dim>>&)
-TALUS_IN_PLANE(TALUS_CORE_CONTACTS(2))
-TALUS_IN_SPACE(TALUS_CORE_CONTACTS(3))
-#undef TALUS_CORE_CONTACTS
+TALUS_IN_PLANE(void talus::append_core_contacts<2>(const talus::CoreView<2>&, const talus::Pose<2>&,
+                                                   const talus::CoreView<2>&, const talus::Pose<2>&,
+                                                   double, talus::Column<talus::ContactPoint<2>>&))
+TALUS_IN_SPACE(void talus::append_core_contacts<3>(const talus::CoreView<3>&, const talus::Pose<3>&,
+                                                   const talus::CoreView<3>&, const talus::Pose<3>&,
+                                                   double, talus::Column<talus::ContactPoint<3>>&))
