@@ -51,8 +51,9 @@ struct Gas {
     /// Balls per volume that centres can reach, away from the walls. At a wall they are denser,
     /// since a part of what others would exclude is beyond it: by n times that part, to second
     /// order in n, whose integral over the distance is 2/3 in the plane and pi/4 in space.
+    static constexpr double surplus = Dim == 2 ? 2.0 / 3 : pi / 4;
     double bulk_density() const {
-        const double free = free_length(), surplus = Dim == 2 ? 2.0 / 3 : pi / 4;
+        const double free = free_length();
         const double mean = count() / std::pow(free, Dim);
         double n = mean;
         for (int k = 0; k < 50; ++k) n = mean / (1 + 2 * Dim * surplus * n / free);

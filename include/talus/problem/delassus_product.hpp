@@ -127,9 +127,9 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             if (free(row(i).a) && free(row(i).b))
                 islands_.join(static_cast<std::size_t>(row(i).a),
                               static_cast<std::size_t>(row(i).b));
-        for (std::size_t i = 0; i < contact_count(); ++i) {
+        for (std::size_t i = 0; driven_ && i < contact_count(); ++i) {
             const Row c = row(i);
-            if (!driven_ || jacobian_->cell_lever[i].isZero(0.0)) continue;
+            if (jacobian_->cell_lever[i].isZero(0.0)) continue;
             const BodyIndex body = free(c.a) ? c.a : c.b;
             islands_.join(static_cast<std::size_t>(body), bodies_.size() - 1);
         }
