@@ -40,7 +40,7 @@ struct Snapshot {
 template <class AnyShape>
 std::vector<talus::VertexLoop> faces(const AnyShape& shape) {
     std::vector<talus::VertexLoop> loops;
-    if (const auto* polytope = std::get_if<talus::ConvexPolytope<3>>(&shape.held()))
+    if (const auto* polytope = shape.template get_if<talus::ConvexPolytope<3>>())
         for (std::size_t f = 0; f < polytope->core().face_count(); ++f) {
             const auto loop = polytope->core().face(f);
             loops.emplace_back(loop.begin(), loop.end());
@@ -52,7 +52,7 @@ std::vector<talus::VertexLoop> faces(const AnyShape& shape) {
 template <int Dim, class AnyShape>
 std::vector<talus::Vector<Dim>> world_corners(const AnyShape& shape, const talus::Pose<Dim>& pose) {
     std::vector<talus::Vector<Dim>> corners;
-    if (const auto* polytope = std::get_if<talus::ConvexPolytope<Dim>>(&shape.held()))
+    if (const auto* polytope = shape.template get_if<talus::ConvexPolytope<Dim>>())
         for (const auto& v : polytope->vertices()) corners.push_back(pose.point_world(v));
     return corners;
 }

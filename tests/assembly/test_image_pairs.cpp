@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -129,7 +128,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(contacts_are_those_of_all_images, D, dimensions) {
             for (int j = 0; j < Dim; ++j) rate(i, j) = uniform(g, -0.02, 0.02);
         crowd.cell.set_velocity_gradient(rate);
         for (int step = 0; step < 6; ++step) {
-            const std::optional<talus::PeriodicCell<Dim>> cell = crowd.cell;
+            const auto cell = talus::StepCell<Dim>::of(crowd.cell);
             grid.detect(crowd.bodies, crowd.list(), 0.05, crowd.reach, {}, 0.0, {}, found, cell);
             brute.detect(crowd.bodies, crowd.list(), 0.0, crowd.reach, {}, 0.0, {}, again, cell);
             check_same(found, crowd.all_images(Dim == 2 ? 9 : 6));
@@ -158,12 +157,13 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_sheared_lattice_is_the_same_lattice, D, dimensio
     crowd.cell = talus::PeriodicCell<Dim>(crowd.cell.lattice(), talus::Matrix<Dim>::Zero(), all);
     talus::Matrix<Dim> lattice = crowd.cell.lattice();
     lattice.col(1) += 20.0 * lattice.col(0);
-    const std::optional<talus::PeriodicCell<Dim>> sheared{talus::PeriodicCell<Dim>(lattice)};
+    const talus::PeriodicCell<Dim> sheared(lattice);
     talus::ContactDetection<Dim, talus::AnyShape<Dim>, talus::HierarchicalGrid<Dim>> detection;
     talus::ContactSet<Dim> one, other;
     detection.detect(crowd.bodies, crowd.list(), 0.05, crowd.reach, {}, 0.0, {}, one,
-                     std::optional(crowd.cell));
-    detection.detect(crowd.bodies, crowd.list(), 0.05, crowd.reach, {}, 0.0, {}, other, sheared);
+                     talus::StepCell<Dim>::of(crowd.cell));
+    detection.detect(crowd.bodies, crowd.list(), 0.05, crowd.reach, {}, 0.0, {}, other,
+                     talus::StepCell<Dim>::of(sheared));
     BOOST_TEST_REQUIRE(one.count() == other.count());
     BOOST_TEST(one.count() > 3u);
     const auto gaps = [](const talus::ContactSet<Dim>& contacts) {
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(permuted_bodies_have_the_same_contacts_to_rounding
         talus::ContactDetection<Dim, talus::AnyShape<Dim>, talus::HierarchicalGrid<Dim>> detection;
         talus::ContactSet<Dim> found;
         detection.detect(scene.bodies, scene.list(), 0.05, scene.reach, {}, 0.0, {}, found,
-                         std::optional(scene.cell));
+                         talus::StepCell<Dim>::of(scene.cell));
         std::vector<Contact> list;
         for (std::size_t c = 0; c < found.count(); ++c) {
             auto [a, b, feature, image] = found.key[c];
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(walls_have_no_images, D, dimensions) {
     talus::ContactDetection<Dim, talus::AnyShape<Dim>, talus::HierarchicalGrid<Dim>> detection;
     talus::ContactSet<Dim> found;
     detection.detect(crowd.bodies, crowd.list(), 0.05, crowd.reach, {}, 0.0, {}, found,
-                     std::optional(crowd.cell));
+                     talus::StepCell<Dim>::of(crowd.cell));
     std::size_t walls = 0;
     for (const auto& key : found.key) {
         if (key.a != 0) continue;

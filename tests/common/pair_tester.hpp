@@ -42,14 +42,12 @@ class PairTester {
 
     /// Farthest extent of a placed shape along n [m].
     static double extent(const Shape& shape, const Pose& at, const Vector& n) {
-        return std::visit(
-            [&]<class S>(const S& s) {
-                if constexpr (talus::ConvexShape<S, Dim>)
-                    return n.dot(at.point_world(s.support(at.rotation.transpose_times(n))));
-                else
-                    return std::numeric_limits<double>::quiet_NaN();
-            },
-            shape.held());
+        return shape.visit([&]<class S>(const S& s) {
+            if constexpr (talus::ConvexShape<S, Dim>)
+                return n.dot(at.point_world(s.support(at.rotation.transpose_times(n))));
+            else
+                return std::numeric_limits<double>::quiet_NaN();
+        });
     }
     double separation(const Pose& at_a, const Pose& at_b, const Vector& n) const {
         return -extent(a_, at_a, -n) - extent(b_, at_b, n);

@@ -58,7 +58,7 @@ void check_hull_of(const std::vector<Vector<Dim>>& points) {
         double extent = 0.0;
         for (const auto& x : points) extent = std::max(extent, x.norm());
         const double rounding = std::max(4.0 * talus::coordinate_rounding<Dim>(points),
-                                         talus::convex_hull(core.vertices, {}).tolerance);
+                                         talus::convex_hull<Dim>(core.vertices, {}).tolerance);
         const double slack = 1e-12 * extent + 2.5 * rounding;
         for (const auto& n : core.normals) {
             demand(std::abs(n.norm() - 1.0) < 1e-9, "normal that is no unit vector");

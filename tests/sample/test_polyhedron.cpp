@@ -19,7 +19,7 @@ std::vector<Vector<3>> cube() {
 }
 
 std::vector<talus::VertexLoop> faces_of(const std::vector<Vector<3>>& points) {
-    return talus::convex_hull_of_cloud(std::span<const Vector<3>>(points)).faces;
+    return talus::convex_hull_of_cloud<3>(points).faces;
 }
 
 BOOST_AUTO_TEST_CASE(a_cube_has_six_faces_of_four_corners) {

@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(polyhedra_are_convex_thick_and_centred_and_reach_their_radi
         const auto v = talus::random_polyhedron(random, radius, params);
         BOOST_REQUIRE(v.size() >= 8u);
         BOOST_REQUIRE(v.size() <= 14u);
-        const auto faces = talus::convex_hull(std::span<const Vector<3>>(v)).faces;
+        const auto faces = talus::convex_hull<3>(v).faces;
         // Every corner is one of the hull, and Euler's formula holds.
         std::vector<bool> named(v.size(), false);
         std::size_t edges = 0;

@@ -870,6 +870,69 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_step_cannot_be_changed_on_its_way, D, dimensions
     BOOST_TEST(sim.step_count() == 3);
 }
 
+/// A ball that says of itself that it is thinner than nothing.
+template <int Dim>
+struct Impossible : talus::Ball<Dim> {
+    Impossible() : talus::Ball<Dim>(0.1) {}
+    Impossible placed(const talus::Pose<Dim>&) const { return *this; }
+    double half_thickness() const { return -1.0; }
+};
+
+template <int Dim>
+struct WithImpossible : talus::SimulationTypes<Dim> {
+    using Shape = talus::AnyShapeOf<Dim, talus::Ball<Dim>, Impossible<Dim>>;
+};
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_that_is_refused_leaves_no_trace, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim, WithImpossible<Dim>> sim(law<Dim>(0.5), {.h = 1e-3});
+    auto& system = sim.system();
+    const auto ball = system.add(talus::Ball<Dim>(0.1), 1000.0, talus::Pose<Dim>{});
+    sim.step();
+    BOOST_CHECK_THROW(system.add(Impossible<Dim>(), 1000.0, talus::Pose<Dim>{}),
+                      talus::input_error);
+    BOOST_CHECK_THROW(system.add_obstacle(Impossible<Dim>()), talus::input_error);
+    BOOST_TEST(system.bodies.count() == 1u);
+    BOOST_TEST(system.shapes().size() == 1u);
+    BOOST_TEST(system.obstacles.size() == 0u);
+    BOOST_TEST(system.bodies.removals() == 0);
+    BOOST_CHECK_NO_THROW(sim.data());
+    // The next body has the next name, as if nothing had been tried.
+    const auto next = system.add(talus::Ball<Dim>(0.1), 1000.0, talus::Pose<Dim>{up<Dim>(), {}});
+    BOOST_TEST((system.bodies.id[next].serial - system.bodies.id[ball].serial) == 1);
+    // The body is refused where its shape is not: the shape goes again.
+    BOOST_CHECK_THROW(
+        system.add(talus::Ball<Dim>(0.1), talus::Inertia<Dim>{-1.0, {}}, talus::Pose<Dim>{}),
+        talus::input_error);
+    BOOST_TEST(system.shapes().size() == 2u);
+    BOOST_CHECK_NO_THROW(sim.step());
+}
+
+/// A shape of one's own, of one type for all bodies, that balls turn into.
+template <int Dim>
+struct Pill {
+    talus::Capsule<Dim> capsule;
+    Pill(const talus::Ball<Dim>& ball) : capsule(1e-3, ball.radius()) {}
+    talus::Aabb<Dim> aabb(const talus::Pose<Dim>& pose) const { return capsule.aabb(pose); }
+    talus::CoreView<Dim> core() const { return capsule.core(); }
+};
+
+template <int Dim>
+struct OfPills : talus::SimulationTypes<Dim> {
+    using Shape = Pill<Dim>;
+};
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_shape_that_becomes_another_meets_as_that, D, dimensions) {
+    constexpr int Dim = D::value;
+    talus::Simulation<Dim, OfPills<Dim>> sim(law<Dim>(0.5), {.h = 1e-3});
+    auto& system = sim.system();
+    for (const double x : {0.0, 0.19})
+        system.add(talus::Ball<Dim>(0.1),
+                   talus::Inertia<Dim>{1.0, talus::AngularVector<Dim>::Ones()},
+                   talus::Pose<Dim>{x * V<Dim>::Unit(0), {}});
+    BOOST_TEST(sim.step().contact_count() == 1u);
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_a_million_times_as_heavy_rests_on_a_light_one, D, dimensions) {
     constexpr int Dim = D::value;
     talus::Simulation<Dim, AutomaticTypes<Dim>> sim(law<Dim>(0.5), {.h = 1e-3});

@@ -34,7 +34,7 @@ Averages averages(const World<Dim>& world, const Deposit<Dim>& deposit) {
     const double top = 0.9 * heights[heights.size() * 95 / 100], bottom = 4 * deposit.mean;
     double solid = 0.0;
     for (std::size_t i = Deposit<Dim>::walls; i < bodies.count(); ++i) {
-        const double r = std::get<talus::Ball<Dim>>(shapes[i].held()).radius();
+        const double r = shapes[i].template get_if<talus::Ball<Dim>>()->radius();
         const double y = bodies.position[i][Dim - 1];
         const double volume = Dim == 2 ? pi * r * r : 4.0 / 3 * pi * r * r * r;
         solid += volume * (share_below(Dim, r, top - y) - share_below(Dim, r, bottom - y));

@@ -101,8 +101,8 @@ class Picture {
                                     .stroke_width = 0.08 * unit_,
                                     .round = true};
         const auto pose = bodies_.pose(i);
-        std::visit([&](const auto& shape) { draw_shape(svg, shape, pose, style); },
-                   world_.system().shapes()[i].held());
+        world_.system().shapes()[i].visit(
+            [&](const auto& shape) { draw_shape(svg, shape, pose, style); });
     }
     void draw_shape(talus::Svg& svg, const talus::Ball<Dim>& ball, const talus::Pose<Dim>& pose,
                     const talus::SvgStyle& style) const {

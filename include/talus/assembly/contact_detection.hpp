@@ -2,23 +2,19 @@
 #pragma once
 
 #include <talus/assembly/anticipated_contacts.hpp>
-#include <talus/assembly/image_pairs.hpp>
+#include <talus/assembly/candidate_boxes.hpp>
+#include <talus/assembly/cell_images.hpp>
 #include <talus/assembly/shape_list.hpp>
 #include <talus/collision/concepts.hpp>
 #include <talus/collision/contact_set.hpp>
 #include <talus/collision/narrow_phase.hpp>
 #include <talus/core/column.hpp>
-#include <talus/core/matrix_functions.hpp>
 #include <talus/dynamics/bodies.hpp>
-#include <talus/dynamics/periodic_cell.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -34,13 +30,12 @@ class ContactDetection {
     /// body over one step [m, rad], contacts are those that it leads to (anticipated_contacts.hpp),
     /// where that differs; of bodies that touch, gap <= `tolerance`, only if they slide past that
     /// side. Bodies whose groups do not meet, and pairs `ignored`, have no contacts. With a `cell`,
-    /// bodies also meet images of others, which move by `strain` times their offsets over the step.
-    /// Throws input_error naming a pair of the broad phase that is none.
+    /// bodies also meet images of others, which move by its `strain` times their offsets over the
+    /// step. Throws input_error naming a pair of the broad phase that is none.
     void detect(const Bodies<Dim>& bodies, const ShapeList<Dim, ShapeType>& list, double skin,
                 std::span<const double> reach, std::span<const Twist<Dim>> motion, double tolerance,
                 const IgnoredPairs& ignored, ContactSet<Dim>& contacts,
-                const std::optional<PeriodicCell<Dim>>& cell = std::nullopt,
-                const Matrix<Dim>& strain = Matrix<Dim>::Zero()) {
+                const StepCell<Dim>& cell = {}) {
         const std::span<const ShapeType> shapes = list.shapes;
         if (!found_ || list.version != version_ ||
             left_a_box(bodies, list.bounding_radius, reach, cell)) {
@@ -59,7 +54,7 @@ class ContactDetection {
             if (!may_meet(bodies.groups[a], bodies.groups[b])) continue;
             if (!ignored.empty() && ignored.contains(bodies.id[a], bodies.id[b])) continue;
             BodyImage<Dim> image;
-            if (cell) image = image_of(*cell, images_[k], strain);
+            if (cell) image = (images_.*cell.routines->image)(*cell.cell, k, cell.strain);
             find_points(bodies, list, a, b, reach[a] + reach[b], image);
             if (!motion.empty()) {
                 anticipated_.add(pair.a, shapes[a], pair.b, shapes[b], reach[a] + reach[b],
@@ -73,21 +68,14 @@ class ContactDetection {
                 else
                     contacts.push_back(pair.a, pair.b, point);
         }
-        if (!motion.empty()) anticipated_.finish(contacts, cell.has_value());
+        if (!motion.empty()) anticipated_.finish(contacts, static_cast<bool>(cell));
     }
 
     std::span<const CandidatePair> candidates() const { return candidates_; }
     /// Of the second body of each candidate; empty without a cell.
-    std::span<const ImageShift> images() const { return images_; }
+    std::span<const ImageShift> images() const { return images_.images(); }
 
   private:
-    static BodyImage<Dim> image_of(const PeriodicCell<Dim>& cell, const ImageShift& shift,
-                                   const Matrix<Dim>& strain) {
-        if (shift.is_zero()) return {};
-        const Vector<Dim> offset = cell.offset(shift);
-        return {shift, offset, strain * offset};
-    }
-
     /// Fills `points_`. Body and image are each moved by half of what they are apart, so that gap
     /// and normal have the same bits whichever of the two is seen as the image.
     void find_points(const Bodies<Dim>& bodies, const ShapeList<Dim, ShapeType>& list,
@@ -111,92 +99,42 @@ class ContactDetection {
             for (ContactPoint<Dim>& point : points_) point.point += half;
     }
 
-    /// As below, in a cell. Displacements count from where the deformation of the cell alone would
-    /// have brought a body: with F what the cell went through since, s' = F s + d_b - d_a for what
-    /// two bodies are apart. So gaps close by |F - 1| |s| + |d_a| + |d_b| at most; of pairs with
-    /// |s| up to 2 (R + room) of both that is charged to the two, and with |F - 1| <= 1/2 those
-    /// farther apart do not touch. What has no bounds has no images, and others move past it.
     bool left_a_box(const Bodies<Dim>& bodies, std::span<const double> radius,
-                    std::span<const double> reach,
-                    const std::optional<PeriodicCell<Dim>>& cell) const {
-        if (cell.has_value() != cell_.has_value()) return true;
-        if (!cell) return left_a_box(bodies, radius, reach);
-        if (cell->periodic() != cell_->periodic() || box_.size() != reach.size()) return true;
-        const Matrix<Dim> change = (cell->lattice() - cell_->lattice()) * inverse_lattice_;
-        constexpr double most_strain = 0.5;
-        const double strain = change.norm();
-        if (!(strain <= most_strain)) return true;
-        if (unbounded_ && left_a_box(bodies, radius, reach)) return true;
-        for (std::size_t i = 0; i < reach.size(); ++i) {
-            if (free_[i] == bodies.is_obstacle(i)) return true;
-            if (!std::isfinite(radius[i])) continue;
-            const double turn = bodies.rotation[i].distance(rotation_[i]) * radius[i];
-            const Vector<Dim> way =
-                (bodies.position[i] - position_[i]) - Vector<Dim>(change * position_[i]);
-            if (!(way.norm() + turn + reach[i] + 2.0 * strain * (radius[i] + room_[i]) <= room_[i]))
-                return true;
-        }
-        return false;
-    }
-    bool left_a_box(const Bodies<Dim>& bodies, std::span<const double> radius,
-                    std::span<const double> reach) const {
-        if (box_.size() != reach.size()) return true;
-        for (std::size_t i = 0; i < reach.size(); ++i) {
-            if (free_[i] == bodies.is_obstacle(i)) return true;
-            const double turn = bodies.rotation[i].distance(rotation_[i]);
-            const double way =
-                (bodies.position[i] - position_[i]).norm() + (turn > 0.0 ? turn * radius[i] : 0.0);
-            if (!(way + reach[i] <= room_[i])) return true;
-        }
-        return false;
+                    std::span<const double> reach, const StepCell<Dim>& cell) const {
+        if (static_cast<bool>(cell) != images_.has_cell()) return true;
+        return cell ? (images_.*cell.routines->left)(*cell.cell, boxes_, bodies, radius, reach)
+                    : boxes_.left(bodies, radius, reach);
     }
 
     void find_candidates(const Bodies<Dim>& bodies, std::span<const ShapeType> shapes, double skin,
-                         std::span<const double> reach,
-                         const std::optional<PeriodicCell<Dim>>& cell) {
+                         std::span<const double> reach, const StepCell<Dim>& cell) {
         const std::size_t n = bodies.count();
-        box_.resize(n);
-        room_.resize(n);
-        free_.resize(n);
-        position_ = bodies.position;
-        rotation_ = bodies.rotation;
+        boxes_.box.resize(n);
+        boxes_.room.resize(n);
+        boxes_.free.resize(n);
+        boxes_.position = bodies.position;
+        boxes_.rotation = bodies.rotation;
         for (std::size_t i = 0; i < n; ++i) {
-            free_[i] = !bodies.is_obstacle(i);
-            room_[i] = reach[i] + 0.5 * skin;
-            box_[i] = shapes[i].aabb(bodies.pose(i)).expanded(room_[i]);
+            boxes_.free[i] = !bodies.is_obstacle(i);
+            boxes_.room[i] = reach[i] + 0.5 * skin;
+            boxes_.box[i] = shapes[i].aabb(bodies.pose(i)).expanded(boxes_.room[i]);
         }
-        cell_ = cell;
-        images_.clear();
-        if (cell) {
-            inverse_lattice_ = inverted(cell->lattice()).inverse;
-            unbounded_ = std::any_of(box_.begin(), box_.end(),
-                                     [](const Aabb<Dim>& box) { return !box.bounded(); });
-            image_pairs_.find(broad_, *cell, box_, free_, candidates_, images_);
-            return;
-        }
-        broad_.find_pairs(
-            std::span<const Aabb<Dim>>(box_),
-            [&](BodyIndex i) { return bodies.is_obstacle(static_cast<std::size_t>(i)); },
-            candidates_);
-        require_candidates(candidates_, free_);
+        images_.forget();
+        const PairSearch<Dim> search(broad_);
+        if (cell)
+            (images_.*cell.routines->find)(*cell.cell, boxes_, search, candidates_);
+        else
+            search(boxes_.box, boxes_.free, candidates_);
     }
 
     Broad broad_;
-    Column<Aabb<Dim>> box_;
-    Column<Vector<Dim>> position_;    // when the boxes were made
-    Column<Rotation<Dim>> rotation_;  // when the boxes were made
-    Column<double> room_;             // widening of each box
-    std::vector<bool> free_;          // no obstacle; two obstacles are no pair
-    std::uint64_t version_ = 0;       // of the shapes
-    bool found_ = false;              // candidates, of this version
+    CandidateBoxes<Dim> boxes_;
+    CellImages<Dim> images_;
+    std::uint64_t version_ = 0;  // of the shapes
+    bool found_ = false;         // candidates, of this version
     Column<CandidatePair> candidates_;
     Column<ContactPoint<Dim>> points_;
     AnticipatedContacts<Dim> anticipated_;
-    std::optional<PeriodicCell<Dim>> cell_;  // when the boxes were made
-    Matrix<Dim> inverse_lattice_;
-    bool unbounded_ = false;  // some box is
-    Column<ImageShift> images_;
-    ImagePairs<Dim> image_pairs_;
 };
 
 }  // namespace talus

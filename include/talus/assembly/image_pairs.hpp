@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/assembly/candidate_boxes.hpp>
 #include <talus/collision/concepts.hpp>
 #include <talus/core/column.hpp>
 #include <talus/core/ids.hpp>
@@ -32,20 +33,9 @@ class ImagePairs {
     /// Replaces `pairs` and `images`, sorted by a, b and image. `is_free` is false of obstacles, of
     /// which two are no pair. Throws input_error for shifts beyond 2^31 lattice vectors, for bodies
     /// so large that 10^4 images come near, and names a pair of the broad phase that is none.
-    template <BroadPhase<Dim> Broad>
-    void find(Broad& broad, const PeriodicCell<Dim>& cell, std::span<const Aabb<Dim>> boxes,
-              const std::vector<bool>& is_free, Column<CandidatePair>& pairs,
-              Column<ImageShift>& images) {
-        bring_home(cell, boxes);
-        add_images(cell, boxes.size());
-        is_free_ = is_free;
-        is_free_.resize(box_.size(), false);
-        broad.find_pairs(
-            std::span<const Aabb<Dim>>(box_),
-            [&](BodyIndex i) { return !is_free_[static_cast<std::size_t>(i)]; }, pairs);
-        require_candidates(pairs, is_free_);
-        collect(cell, boxes.size(), pairs, images);
-    }
+    void find(PairSearch<Dim> search, const PeriodicCell<Dim>& cell,
+              std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free,
+              Column<CandidatePair>& pairs, Column<ImageShift>& images);
 
   private:
     using Steps = typename ReducedLattice<Dim>::Steps;
@@ -82,6 +72,19 @@ class ImagePairs {
     std::vector<bool> is_free_, bounded_;
     std::vector<Pair> found_;
 };
+
+template <int Dim>
+requires SpaceDimension<Dim>
+void ImagePairs<Dim>::find(PairSearch<Dim> search, const PeriodicCell<Dim>& cell,
+                           std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free,
+                           Column<CandidatePair>& pairs, Column<ImageShift>& images) {
+    bring_home(cell, boxes);
+    add_images(cell, boxes.size());
+    is_free_ = is_free;
+    is_free_.resize(box_.size(), false);
+    search(box_, is_free_, pairs);
+    collect(cell, boxes.size(), pairs, images);
+}
 
 template <int Dim>
 requires SpaceDimension<Dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/assembly/body_image.hpp>
 #include <talus/collision/contact_point.hpp>
 #include <talus/collision/passage.hpp>
 #include <talus/core/column.hpp>
@@ -16,15 +17,6 @@
 #include <vector>
 
 namespace talus {
-
-/// An image of a body in a periodic cell; as it is made, the body itself.
-template <int Dim>
-requires SpaceDimension<Dim>
-struct BodyImage {
-    ImageShift shift = {};
-    Vector<Dim> offset = Vector<Dim>::Zero();  ///< from the body [m]
-    Vector<Dim> motion = Vector<Dim>::Zero();  ///< beyond that of the body, over one step [m]
-};
 
 /// Where bodies get to in the steps that Foresight looks ahead if contacts already decided on, its
 /// stops, hold them up: without friction, without a change of their turning, and by a few sweeps

@@ -3,6 +3,7 @@
 
 #include <talus/collision/concepts.hpp>
 #include <talus/core/column.hpp>
+#include <talus/core/model.hpp>
 
 #include <concepts>
 
@@ -32,6 +33,7 @@ class BruteForce {
         }
     }
 };
-static_assert(BroadPhase<BruteForce<2>, 2> && BroadPhase<BruteForce<3>, 3>);
+TALUS_MODEL(BroadPhase<BruteForce<2>, 2>);
+TALUS_MODEL(BroadPhase<BruteForce<3>, 3>);
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 
 #include <talus/collision/concepts.hpp>
 #include <talus/core/column.hpp>
+#include <talus/core/model.hpp>
 #include <talus/core/room.hpp>
 
 #include <algorithm>
@@ -212,6 +213,7 @@ class HierarchicalGrid {
     Column<std::size_t> bucket_begin_, bucket_end_, place_;
     Column<CandidatePair> unsorted_pairs_;
 };
-static_assert(BroadPhase<HierarchicalGrid<2>, 2> && BroadPhase<HierarchicalGrid<3>, 3>);
+TALUS_MODEL(BroadPhase<HierarchicalGrid<2>, 2>);
+TALUS_MODEL(BroadPhase<HierarchicalGrid<3>, 3>);
 
 }  // namespace talus

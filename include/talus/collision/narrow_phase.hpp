@@ -215,7 +215,7 @@ const Ball<Dim>* as_ball(const S& shape) {
 template <int Dim, class... Shapes>
 const Ball<Dim>* as_ball(const AnyShapeOf<Dim, Shapes...>& shape) {
     if constexpr ((std::same_as<Shapes, Ball<Dim>> || ...))
-        return std::get_if<Ball<Dim>>(&shape.held());
+        return shape.template get_if<Ball<Dim>>();
     else
         return nullptr;
 }

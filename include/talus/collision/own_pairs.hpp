@@ -3,6 +3,9 @@
 
 #include <talus/collision/contact_point.hpp>
 #include <talus/core/column.hpp>
+#include <talus/geometry/any_shape_of.hpp>
+#include <talus/geometry/ball.hpp>
+#include <talus/geometry/compound.hpp>
 #include <talus/geometry/shape_view.hpp>
 
 #include <array>

@@ -7,6 +7,7 @@
 #include <talus/core/column.hpp>
 #include <talus/core/input.hpp>
 #include <talus/geometry/half_space.hpp>
+#include <talus/geometry/round_hole.hpp>
 #include <talus/geometry/shape_view.hpp>
 
 #include <algorithm>

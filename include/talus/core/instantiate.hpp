@@ -13,7 +13,9 @@
 ///
 /// TALUS_FUNCTION stands where a function that is no template, and too large to be compiled in
 /// every file, would say `inline`. Its body, and what that alone includes, is within
-/// `#if TALUS_BODIES`: one source of the library (TALUS_COMPILE_FUNCTIONS) has them.
+/// `#if TALUS_BODIES`: one source of the library (TALUS_COMPILE_FUNCTIONS) has them. Functions that
+/// few programs call are templates nevertheless, since the compiler works through what is `inline`
+/// whether it is called or not; TALUS_IN_LIBRARY then names the instance that the library holds.
 #if defined(TALUS_COMPILE_PLANE)
 #define TALUS_IN_PLANE(...) template __VA_ARGS__;
 #define TALUS_IN_SPACE(...)
@@ -30,12 +32,15 @@
 #if defined(TALUS_COMPILE_FUNCTIONS)
 #define TALUS_FUNCTION
 #define TALUS_BODIES 1
+#define TALUS_IN_LIBRARY(...) template __VA_ARGS__;
 #elif defined(TALUS_COMPILE_PLANE) || defined(TALUS_COMPILE_SPACE) || defined(TALUS_COMPILED)
 #define TALUS_FUNCTION
 #define TALUS_BODIES 0
+#define TALUS_IN_LIBRARY(...)
 #else
 #define TALUS_FUNCTION inline
 #define TALUS_BODIES 1
+#define TALUS_IN_LIBRARY(...)
 #endif
 
 namespace talus::detail {

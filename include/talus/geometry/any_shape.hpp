@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/model.hpp>
 #include <talus/geometry/any_shape_of.hpp>
 #include <talus/geometry/ball.hpp>
 #include <talus/geometry/box.hpp>
@@ -17,8 +18,10 @@ template <int Dim>
 using AnyShape = AnyShapeOf<Dim, Ball<Dim>, HalfSpace<Dim>, Capsule<Dim>, Box<Dim>,
                             ConvexPolytope<Dim>, Compound<Dim>, RoundHole<Dim>>;
 
-static_assert(SolidShape<AnyShape<2>, 2> && SolidShape<AnyShape<3>, 3>);
-static_assert(sizeof(AnyShape<2>) <= 48 && sizeof(AnyShape<3>) <= 48,
-              "shapes are copied freely: large data is shared");
+TALUS_MODEL(SolidShape<AnyShape<2>, 2>);
+TALUS_MODEL(SolidShape<AnyShape<3>, 3>);
+// Shapes are copied freely: large data is shared.
+TALUS_MODEL(sizeof(AnyShape<2>) <= 48);
+TALUS_MODEL(sizeof(AnyShape<3>) <= 48);
 
 }  // namespace talus

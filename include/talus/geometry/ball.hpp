@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/core/number_record.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/geometry/convex_core.hpp>
@@ -62,7 +63,9 @@ class Ball {
     double radius_;
 };
 
-static_assert(SolidShape<Ball<2>, 2> && SolidShape<Ball<3>, 3>);
-static_assert(ConvexShape<Ball<2>, 2> && ConvexShape<Ball<3>, 3>);
+TALUS_MODEL(SolidShape<Ball<2>, 2>);
+TALUS_MODEL(SolidShape<Ball<3>, 3>);
+TALUS_MODEL(ConvexShape<Ball<2>, 2>);
+TALUS_MODEL(ConvexShape<Ball<3>, 3>);
 
 }  // namespace talus

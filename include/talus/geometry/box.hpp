@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/geometry/convex_core.hpp>
 #include <talus/geometry/core_mass.hpp>
@@ -86,7 +87,9 @@ class Box {
     std::shared_ptr<const ConvexCore<Dim>> core_;
 };
 
-static_assert(SolidShape<Box<2>, 2> && SolidShape<Box<3>, 3>);
-static_assert(ConvexShape<Box<2>, 2> && ConvexShape<Box<3>, 3>);
+TALUS_MODEL(SolidShape<Box<2>, 2>);
+TALUS_MODEL(SolidShape<Box<3>, 3>);
+TALUS_MODEL(ConvexShape<Box<2>, 2>);
+TALUS_MODEL(ConvexShape<Box<3>, 3>);
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/model.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/geometry/convex_core.hpp>
 #include <talus/geometry/core_mass.hpp>
@@ -77,7 +78,9 @@ class Capsule {
     double half_length_;
 };
 
-static_assert(SolidShape<Capsule<2>, 2> && SolidShape<Capsule<3>, 3>);
-static_assert(ConvexShape<Capsule<2>, 2> && ConvexShape<Capsule<3>, 3>);
+TALUS_MODEL(SolidShape<Capsule<2>, 2>);
+TALUS_MODEL(SolidShape<Capsule<3>, 3>);
+TALUS_MODEL(ConvexShape<Capsule<2>, 2>);
+TALUS_MODEL(ConvexShape<Capsule<3>, 3>);
 
 }  // namespace talus

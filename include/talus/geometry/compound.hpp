@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/model.hpp>
 #include <talus/geometry/any_shape_of.hpp>
 #include <talus/geometry/ball.hpp>
 #include <talus/geometry/box.hpp>
 #include <talus/geometry/capsule.hpp>
 #include <talus/geometry/convex_polytope.hpp>
+#include <talus/geometry/shape_view.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -19,37 +21,21 @@ namespace talus {
 /// A compound has at most this many children, so that they fit a contact's code.
 inline constexpr std::size_t max_child_count = std::size_t{1} << 12;
 
-/// A ball that holds a shape: enough to see that two shapes are far apart.
-template <int Dim>
-requires SpaceDimension<Dim>
-struct BoundingBall {
-    Vector<Dim> centre = Vector<Dim>::Zero();  ///< in the frame of the shape [m]
-    double radius = 0.0;                       ///< [m]
-};
-
 /// Exact for balls, that of the box for rounded cores, and for shapes that tell no more than their
 /// box the ball around it. Throws input_error if the shape is unbounded.
 template <int Dim, Shape<Dim> S>
 BoundingBall<Dim> bounding_ball(const S& shape) {
-    if constexpr (is_any_shape<S>) {
-        BoundingBall<Dim> ball;
-        detail::visit_held(shape.held(), [&](const auto& s) { ball = bounding_ball<Dim>(s); });
-        return ball;
-    } else if constexpr (CoreShape<S, Dim>) {
-        const CoreView<Dim> core = shape.core();
+    const ShapeView<Dim> view = view_of<Dim>(shape);
+    if (view.has_core()) {
+        const CoreView<Dim> core = view.core();
         return {core.centre, core.bound};
-    } else {
-        const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
-        const Vector<Dim> centre = 0.5 * (box.low + box.high);
-        const double radius = 0.5 * (box.high - box.low).norm();
-        return {require_finite("centre of a child of the compound", centre),
-                require_in("radius of a child of the compound", radius, 0.0, 1e300)};
     }
+    const Aabb<Dim> box = view.aabb(Pose<Dim>{});
+    const Vector<Dim> centre = 0.5 * (box.low + box.high);
+    const double radius = 0.5 * (box.high - box.low).norm();
+    return {require_finite("centre of a child of the compound", centre),
+            require_in("radius of a child of the compound", radius, 0.0, 1e300)};
 }
-
-/// Whether S is a compound.
-template <class S>
-inline constexpr bool is_compound = false;
 
 /// Whether S is a compound or an AnyShapeOf with one in its list.
 template <class S>
@@ -178,7 +164,9 @@ template <int Dim>
 using Compound =
     CompoundOf<Dim, AnyShapeOf<Dim, Ball<Dim>, Capsule<Dim>, Box<Dim>, ConvexPolytope<Dim>>>;
 
-static_assert(SolidShape<Compound<2>, 2> && SolidShape<Compound<3>, 3>);
-static_assert(!ConvexShape<Compound<2>, 2> && !ConvexShape<Compound<3>, 3>);
+TALUS_MODEL(SolidShape<Compound<2>, 2>);
+TALUS_MODEL(SolidShape<Compound<3>, 3>);
+TALUS_MODEL(!ConvexShape<Compound<2>, 2>);
+TALUS_MODEL(!ConvexShape<Compound<3>, 3>);
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/cross.hpp>
+#include <talus/core/model.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/geometry/convex_core.hpp>
 #include <talus/geometry/core_mass.hpp>
@@ -19,15 +20,18 @@ namespace talus {
 /// none, with the tolerance of convex_hull in space. Throws input_error naming the vertex that is
 /// not finite, coincides with the next, or where the outline turns right; or when the outline is
 /// clockwise, encloses no area or winds more than once.
-ConvexHull convex_hull(std::span<const Vector<2>> points, const HullOptions& options = {});
+template <int Dim>
+requires(Dim == 2) ConvexHull
+    convex_hull(std::span<const Vector<Dim>> points, const HullOptions& options = {});
 
 #if TALUS_BODIES
 namespace detail {
 
 /// The corners of a loop of points, those left out that lie on a side to a tolerance.
-class SideMerger {
+template <int Dim>
+requires(Dim == 2) class SideMerger {
   public:
-    SideMerger(std::span<const Vector<2>> points, double tolerance)
+    SideMerger(std::span<const Vector<Dim>> points, double tolerance)
         : points_(points), tolerance_(tolerance), corners_(points.size()) {
         std::iota(corners_.begin(), corners_.end(), 0u);
         while (corners_.size() > 3 && drop_flattest()) {
@@ -38,8 +42,8 @@ class SideMerger {
 
     /// Distance of a point to the right of the line between two others, which is outwards.
     double height(std::uint32_t from, std::uint32_t to, std::uint32_t point) const {
-        const Vector<2> side = points_[to] - points_[from];
-        return -moment<2>(side, points_[point] - points_[from])[0] / side.norm();
+        const Vector<Dim> side = points_[to] - points_[from];
+        return -moment<Dim>(side, points_[point] - points_[from])[0] / side.norm();
     }
 
   private:
@@ -67,15 +71,16 @@ class SideMerger {
     }
     std::uint32_t next(std::uint32_t p) const { return p + 1 < points_.size() ? p + 1 : 0; }
 
-    std::span<const Vector<2>> points_;
+    std::span<const Vector<Dim>> points_;
     double tolerance_;
     VertexLoop corners_;
 };
 
 }  // namespace detail
 
-TALUS_FUNCTION ConvexHull convex_hull(std::span<const Vector<2>> points,
-                                      const HullOptions& options) {
+template <int Dim>
+requires(Dim == 2) ConvexHull
+    convex_hull(std::span<const Vector<Dim>> points, const HullOptions& options) {
     const std::size_t n = points.size();
     if (n < 3) detail::reject("vertex count", static_cast<double>(n), "at least 3");
     const auto name = [&](std::size_t i) { return detail::vertex_name(options, i); };
@@ -86,7 +91,7 @@ TALUS_FUNCTION ConvexHull convex_hull(std::span<const Vector<2>> points,
         if ((points[j] - points[i]).norm() <= detail::coincident * extent)
             throw input_error(name(j) + " coincides with " + name(i) +
                               ", but the vertices must be distinct");
-        twice_area += moment<2>(points[i] - points[0], points[j] - points[0])[0];
+        twice_area += moment<Dim>(points[i] - points[0], points[j] - points[0])[0];
     }
     if (std::abs(twice_area) <= detail::coincident * extent * extent)
         throw input_error("the polygon encloses no area, but must have a positive one");
@@ -94,15 +99,15 @@ TALUS_FUNCTION ConvexHull convex_hull(std::span<const Vector<2>> points,
         throw input_error("the vertices run clockwise, but must run counter-clockwise");
     ConvexHull result;
     // A polygon no wider than the rounding of its corners tells it was not rounded so much.
-    auto tolerance = detail::hull_tolerance(points, extent, options);
+    auto tolerance = detail::hull_tolerance<Dim>(points, extent, options);
     result.tolerance = std::min(tolerance.value, twice_area / extent / 32.0);
-    const detail::SideMerger merger(points, result.tolerance);
+    const detail::SideMerger<Dim> merger(points, result.tolerance);
     const VertexLoop& corners = merger.corners();
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const std::uint32_t i = corners[k], j = corners[(k + 1) % corners.size()],
                             l = corners[(k + 2) % corners.size()];
-        const Vector<2> in = points[j] - points[i], out = points[l] - points[j];
-        const double turn = std::atan2(moment<2>(in, out)[0], in.dot(out));
+        const Vector<Dim> in = points[j] - points[i], out = points[l] - points[j];
+        const double turn = std::atan2(moment<Dim>(in, out)[0], in.dot(out));
         if (!(turn > 0.0))
             throw input_error(name(j) +
                               " is no convex corner, but the polygon must turn left there");
@@ -134,8 +139,7 @@ class ConvexPolytope {
     /// those of the convex hull. Vertices keep their index. Throws input_error as told at
     /// convex_hull.
     explicit ConvexPolytope(std::vector<Vector<Dim>> vertices, const HullOptions& options = {})
-        : ConvexPolytope(convex_hull(std::span<const Vector<Dim>>(vertices), options),
-                         std::move(vertices)) {}
+        : ConvexPolytope(convex_hull<Dim>(vertices, options), std::move(vertices)) {}
 
     std::span<const Vector<Dim>> vertices() const { return core().vertices; }  ///< [m]
     CoreView<Dim> core() const { return core_->view(); }  ///< the polytope itself
@@ -171,8 +175,10 @@ class ConvexPolytope {
     std::shared_ptr<const ConvexCore<Dim>> core_;
 };
 
-static_assert(SolidShape<ConvexPolytope<2>, 2> && SolidShape<ConvexPolytope<3>, 3>);
-static_assert(ConvexShape<ConvexPolytope<2>, 2> && ConvexShape<ConvexPolytope<3>, 3>);
+TALUS_MODEL(SolidShape<ConvexPolytope<2>, 2>);
+TALUS_MODEL(SolidShape<ConvexPolytope<3>, 3>);
+TALUS_MODEL(ConvexShape<ConvexPolytope<2>, 2>);
+TALUS_MODEL(ConvexShape<ConvexPolytope<3>, 3>);
 
 /// Convex hull of any points, such as those of a mesh: some may lie inside or coincide.
 template <int Dim>
@@ -205,7 +211,7 @@ struct HullOfPoints {
     static KeptHull kept_hull(std::span<const Vector<Dim>> points, const HullOptions& options) {
         KeptHull k;
         if constexpr (Dim == 3) {
-            k.hull = convex_hull_of_cloud(points, options);
+            k.hull = convex_hull_of_cloud<Dim>(points, options);
             std::vector<std::uint32_t> number(points.size(), 0);
             for (const VertexLoop& loop : k.hull.faces)
                 for (const std::uint32_t v : loop) number[v] = 1;
@@ -216,7 +222,7 @@ struct HullOfPoints {
                 for (std::uint32_t& v : loop) v = number[v];
         } else {
             const VertexLoop outline = extreme_points(points, options);
-            k.hull = convex_hull(std::span<const Vector<2>>(chosen(points, outline)), options);
+            k.hull = convex_hull<Dim>(chosen(points, outline), options);
             for (std::size_t s = 0; s < k.hull.faces.size(); ++s) {
                 k.kept.push_back(outline[k.hull.faces[s][0]]);
                 k.hull.faces[s] = {static_cast<std::uint32_t>(s),
@@ -252,3 +258,6 @@ struct HullOfPoints {
 };
 
 }  // namespace talus
+
+TALUS_IN_LIBRARY(talus::ConvexHull talus::convex_hull<2>(std::span<const talus::Vector<2>>,
+                                                         const talus::HullOptions&))

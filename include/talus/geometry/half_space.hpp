@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/core/number_record.hpp>
 #include <talus/geometry/concepts.hpp>
 
@@ -61,7 +62,9 @@ class HalfSpace {
     double offset_;
 };
 
-static_assert(Shape<HalfSpace<2>, 2> && Shape<HalfSpace<3>, 3>);
-static_assert(!SolidShape<HalfSpace<2>, 2> && !SolidShape<HalfSpace<3>, 3>);
+TALUS_MODEL(Shape<HalfSpace<2>, 2>);
+TALUS_MODEL(Shape<HalfSpace<3>, 3>);
+TALUS_MODEL(!SolidShape<HalfSpace<2>, 2>);
+TALUS_MODEL(!SolidShape<HalfSpace<3>, 3>);
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/core/number_record.hpp>
 #include <talus/geometry/concepts.hpp>
 
@@ -75,7 +76,9 @@ class RoundHole {
     std::shared_ptr<const Data> data_;
 };
 
-static_assert(Shape<RoundHole<2>, 2> && Shape<RoundHole<3>, 3>);
-static_assert(!SolidShape<RoundHole<2>, 2> && !SolidShape<RoundHole<3>, 3>);
+TALUS_MODEL(Shape<RoundHole<2>, 2>);
+TALUS_MODEL(Shape<RoundHole<3>, 3>);
+TALUS_MODEL(!SolidShape<RoundHole<2>, 2>);
+TALUS_MODEL(!SolidShape<RoundHole<3>, 3>);
 
 }  // namespace talus

@@ -1,20 +1,39 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/geometry/any_shape_of.hpp>
-#include <talus/geometry/ball.hpp>
-#include <talus/geometry/compound.hpp>
-#include <talus/geometry/half_space.hpp>
-#include <talus/geometry/round_hole.hpp>
+#include <talus/geometry/aabb.hpp>
+#include <talus/geometry/concepts.hpp>
+#include <talus/geometry/convex_core.hpp>
 
 #include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <variant>
 
 namespace talus {
+
+template <int Dim>
+requires SpaceDimension<Dim>
+class Ball;
+template <int Dim>
+requires SpaceDimension<Dim>
+class HalfSpace;
+template <int Dim>
+requires SpaceDimension<Dim>
+class RoundHole;
+
+/// Whether S is a compound (compound.hpp).
+template <class S>
+inline constexpr bool is_compound = false;
+
+/// A ball that holds a shape: enough to see that two shapes are far apart.
+template <int Dim>
+requires SpaceDimension<Dim>
+struct BoundingBall {
+    Vector<Dim> centre = Vector<Dim>::Zero();  ///< in the frame of the shape [m]
+    double radius = 0.0;                       ///< [m]
+};
 
 /// What the narrow phase can ask of a shape.
 enum class ShapeKind : std::uint8_t {
@@ -116,13 +135,10 @@ inline constexpr ShapeAccess<Dim> shape_access = detail::make_shape_access<Dim, 
 /// The shape without its type; of an AnyShapeOf the shape that it holds.
 template <int Dim, Shape<Dim> S>
 ShapeView<Dim> view_of(const S& shape) {
-    if constexpr (is_any_shape<S>) {
-        ShapeView<Dim> view{};
-        detail::visit_held(shape.held(), [&](const auto& held) { view = view_of<Dim>(held); });
-        return view;
-    } else {
+    if constexpr (requires { shape.view(); })
+        return shape.view();
+    else
         return {&shape, &shape_access<Dim, S>};
-    }
 }
 
 /// Distance of the farthest point of a shape from the origin of its frame, or a little more;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/model.hpp>
 #include <talus/core/number_record.hpp>
 #include <talus/geometry/concepts.hpp>
 #include <talus/geometry/mass_properties.hpp>
@@ -105,7 +106,9 @@ class Superellipsoid {
     Pose<Dim> pose_;
 };
 
-static_assert(SolidShape<Superellipsoid<2>, 2> && SolidShape<Superellipsoid<3>, 3>);
-static_assert(ConvexShape<Superellipsoid<2>, 2> && ConvexShape<Superellipsoid<3>, 3>);
+TALUS_MODEL(SolidShape<Superellipsoid<2>, 2>);
+TALUS_MODEL(SolidShape<Superellipsoid<3>, 3>);
+TALUS_MODEL(ConvexShape<Superellipsoid<2>, 2>);
+TALUS_MODEL(ConvexShape<Superellipsoid<3>, 3>);
 
 }  // namespace talus

@@ -42,7 +42,7 @@ inline std::string shape_complaint(const std::vector<Vector<2>>& v, double toler
         return "has the area " + text_of(area) +
                " m^2, but must be positive, its vertices counter-clockwise";
     try {
-        convex_hull(std::span<const Vector<2>>(v), {.first_index = 1});
+        convex_hull<2>(v, {.first_index = 1});
     } catch (const input_error& error) {
         return std::string("is not convex: ") + error.what();
     }
@@ -52,7 +52,7 @@ inline std::string shape_complaint(const std::vector<Vector<2>>& v, double toler
 /// What is wrong with these corners of a polyhedron relative to their centroid, or nothing.
 inline std::string shape_complaint(const std::vector<Vector<3>>& v, double tolerance) {
     try {
-        const auto hull = convex_hull(std::span<const Vector<3>>(v), {.first_index = 1});
+        const auto hull = convex_hull<3>(v, {.first_index = 1});
         return centroid_complaint(solid_centre(v, hull.faces).centroid.norm(), tolerance);
     } catch (const input_error& error) {
         return std::string("is not convex and solid: ") + error.what();

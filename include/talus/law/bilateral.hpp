@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/model.hpp>
 #include <talus/core/symmetric_eigen.hpp>
 #include <talus/law/concepts.hpp>
 
@@ -47,6 +48,7 @@ struct Bilateral {
         return r - rho * u;
     }
 };
-static_assert(PreparableLaw<Bilateral<2>, 2> && PreparableLaw<Bilateral<3>, 3>);
+TALUS_MODEL(PreparableLaw<Bilateral<2>, 2>);
+TALUS_MODEL(PreparableLaw<Bilateral<3>, 3>);
 
 }  // namespace talus

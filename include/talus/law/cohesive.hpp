@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/law/prepared.hpp>
 
@@ -77,7 +78,8 @@ struct Cohesive {
 /// Cohesion and Coulomb friction: Cohesive<Dim, Coulomb<Dim>>, `{{mu}, c}`.
 template <int Dim>
 using CohesiveCoulomb = Cohesive<Dim, Coulomb<Dim>>;
-static_assert(PreparableLaw<CohesiveCoulomb<2>, 2> && PreparableLaw<CohesiveCoulomb<3>, 3>);
-static_assert(!RestitutionLaw<CohesiveCoulomb<3>, 3>);
+TALUS_MODEL(PreparableLaw<CohesiveCoulomb<2>, 2>);
+TALUS_MODEL(PreparableLaw<CohesiveCoulomb<3>, 3>);
+TALUS_MODEL(!RestitutionLaw<CohesiveCoulomb<3>, 3>);
 
 }  // namespace talus

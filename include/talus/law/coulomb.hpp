@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/law/concepts.hpp>
 #include <talus/law/coulomb_block.hpp>
 #include <talus/law/friction_cone.hpp>
@@ -44,6 +45,7 @@ struct Coulomb {
         require_non_negative(std::string(item) + ".mu", mu);
     }
 };
-static_assert(PreparableLaw<Coulomb<2>, 2> && PreparableLaw<Coulomb<3>, 3>);
+TALUS_MODEL(PreparableLaw<Coulomb<2>, 2>);
+TALUS_MODEL(PreparableLaw<Coulomb<3>, 3>);
 
 }  // namespace talus

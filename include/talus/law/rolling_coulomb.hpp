@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/law/concepts.hpp>
 #include <talus/law/rolling_block.hpp>
 #include <talus/law/rolling_cone.hpp>
@@ -64,13 +65,15 @@ struct RollingCoulomb {
         require_non_negative(std::string(item) + ".mu_r", mu_r);
     }
 };
-static_assert(PreparableLaw<RollingCoulomb<3>, 3> && PreparableLaw<RollingCoulomb<5>, 5>);
+TALUS_MODEL(PreparableLaw<RollingCoulomb<3>, 3>);
+TALUS_MODEL(PreparableLaw<RollingCoulomb<5>, 5>);
 
 /// Coulomb and rolling friction in the plane and in space: the Law of a Simulation<Dim>. Adaptors
 /// of it are of rows_with_rolling<Dim> rows, as WeightedMean<rows_with_rolling<Dim>,
 /// RollingFriction<Dim>>.
 template <int Dim>
 using RollingFriction = RollingCoulomb<rows_with_rolling<Dim>>;
-static_assert(BodyLaw<RollingFriction<2>, 2> && BodyLaw<RollingFriction<3>, 3>);
+TALUS_MODEL(BodyLaw<RollingFriction<2>, 2>);
+TALUS_MODEL(BodyLaw<RollingFriction<3>, 3>);
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/core/model.hpp>
 #include <talus/law/concepts.hpp>
 #include <talus/law/friction_cone.hpp>
 
@@ -41,6 +42,7 @@ struct Signorini {
     }
     auto friction_cone() const requires SpaceDimension<Rows> { return FrictionCone<Rows>{0.0}; }
 };
-static_assert(PreparableLaw<Signorini<2>, 2> && PreparableLaw<Signorini<3>, 3>);
+TALUS_MODEL(PreparableLaw<Signorini<2>, 2>);
+TALUS_MODEL(PreparableLaw<Signorini<3>, 3>);
 
 }  // namespace talus

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/dynamics/bodies.hpp>
+#include <talus/geometry/ball.hpp>
+#include <talus/geometry/half_space.hpp>
+#include <talus/geometry/round_hole.hpp>
 #include <talus/geometry/shape_view.hpp>
 
 #include <algorithm>
@@ -68,8 +72,10 @@ class BoxRegion {
     Aabb<Dim> box_;
 };
 
-static_assert(Region<BallRegion<2>, 2> && Region<BallRegion<3>, 3>);
-static_assert(Region<BoxRegion<2>, 2> && Region<BoxRegion<3>, 3>);
+TALUS_MODEL(Region<BallRegion<2>, 2>);
+TALUS_MODEL(Region<BallRegion<3>, 3>);
+TALUS_MODEL(Region<BoxRegion<2>, 2>);
+TALUS_MODEL(Region<BoxRegion<3>, 3>);
 
 /// Whether a placed shape covers a point of space. Of a shape that is known by its support mapping
 /// alone it is not known: false.

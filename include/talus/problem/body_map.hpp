@@ -2,6 +2,7 @@
 #pragma once
 
 #include <talus/core/instantiate.hpp>
+#include <talus/core/model.hpp>
 #include <talus/core/symmetric_eigen.hpp>
 #include <talus/problem/assembled_problem.hpp>
 #include <talus/problem/contact_problem.hpp>
@@ -324,7 +325,8 @@ class DelassusGlobal {
     BodyMap<Dim> bodies_;
     bool has_bodies_ = false;
 };
-static_assert(SweepableDelassus<DelassusGlobal<2>, 2> && SweepableDelassus<DelassusGlobal<3>, 3>);
+TALUS_MODEL(SweepableDelassus<DelassusGlobal<2>, 2>);
+TALUS_MODEL(SweepableDelassus<DelassusGlobal<3>, 3>);
 
 }  // namespace talus
 

@@ -3,6 +3,7 @@
 
 #include <talus/core/check.hpp>
 #include <talus/core/column.hpp>
+#include <talus/core/model.hpp>
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/problem/islands.hpp>
@@ -80,7 +81,9 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             bodies_[k].angular.setZero();
         }
         driven_ = !jacobian.cell_lever.empty();
-        if (driven_) assign_cell(inverse_mass);
+        TALUS_CHECK(takes_cells || !driven_, "driven cells come with tensors");
+        if constexpr (takes_cells)
+            if (driven_) assign_cell(inverse_mass);
     }
 
     std::size_t contact_count() const {
@@ -158,8 +161,9 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
 
   private:
     static constexpr bool rolls = Rows != Dim;
-    /// In space a cell that a stress drives comes with tensors.
-    static constexpr bool takes_cells = !std::same_as<Inertia, double> || rotation_dof<Dim> == 1;
+    /// A cell that a stress drives comes with tensors: to ask for it at every visit of a contact
+    /// costs a tenth of a sweep.
+    static constexpr bool takes_cells = !std::same_as<Inertia, double>;
     struct Row {
         const Matrix<Dim>& frame;
         const Vector<Dim>&arm_a, &arm_b;
@@ -190,9 +194,7 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     void assign_cell(const InverseMass<Dim>& inverse_mass) {
         for (int j = 0; j < Dim; ++j) {
             Body& x = cell_column(bodies_, j);
-            if constexpr (std::same_as<Mobility, double>)
-                TALUS_CHECK(false, "driven cells in space come with tensors");
-            else
+            if constexpr (takes_cells)
                 for (int d = 0; d < Dim; ++d) x.inverse_mass[d] = inverse_mass.cell(d, j);
             x.inverse_inertia = Inertia{};
             x.linear.setZero();
@@ -275,8 +277,8 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     // A driven cell stands apart and out of line: few have one, and contacts are visited often.
     Vector<Rows> velocity(std::size_t i, const Column<Body>& bodies) const {
         Vector<Rows> u = velocity(row(i), bodies);
-        if (takes_cells && driven_) [[unlikely]]
-            subtract_cell(i, bodies, u);
+        if constexpr (takes_cells)
+            if (driven_) subtract_cell(i, bodies, u);
         return u;
     }
     [[gnu::noinline]] void subtract_cell(std::size_t i, const Column<Body>& bodies,
@@ -288,8 +290,8 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     }
     void add(std::size_t i, const Vector<Rows>& dr, Column<Body>& bodies) const {
         add(row(i), dr, bodies);
-        if (takes_cells && driven_) [[unlikely]]
-            add_to_cell(i, dr, bodies);
+        if constexpr (takes_cells)
+            if (driven_) add_to_cell(i, dr, bodies);
     }
     [[gnu::noinline]] void add_to_cell(std::size_t i, const Vector<Rows>& dr,
                                        Column<Body>& bodies) const {
@@ -340,25 +342,24 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     mutable Islands islands_;
     mutable Column<std::uint32_t> first_contact_;
 };
-static_assert(SweepableDelassus<DelassusProduct<2>, 2> && SweepableDelassus<DelassusProduct<3>, 3>);
-static_assert(SweepableDelassus<DelassusProduct<3, double>, 3>);
-static_assert(SweepableDelassus<DelassusProduct<2, double, 3>, 3>);
+TALUS_MODEL(SweepableDelassus<DelassusProduct<2>, 2>);
+TALUS_MODEL(SweepableDelassus<DelassusProduct<3>, 3>);
+TALUS_MODEL(SweepableDelassus<DelassusProduct<3, double>, 3>);
+TALUS_MODEL(SweepableDelassus<DelassusProduct<2, double, 3>, 3>);
 
 /// The operators of problems of rigid bodies, which a solver keeps between solves.
 template <int Dim, int Rows = Dim>
 class RigidBodyOperators {
   public:
     /// Takes a new problem in, at zero impulses, keeping a reference to `jacobian`; returns f(W)
-    /// for the quicker W that applies. In the plane every inertia is scalar.
+    /// for the quicker W that applies.
     template <class F>
     decltype(auto) with(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
                         F&& f) {
-        if constexpr (rotation_dof<Dim> != 1) {
-            if (!inverse_mass.free_axes.empty() || !jacobian.cell_lever.empty() ||
-                !has_scalar_inertia(inverse_mass)) {
-                tensor_.assign(jacobian, inverse_mass);
-                return f(tensor_);
-            }
+        const bool locked = rotation_dof<Dim> != 1 && !inverse_mass.free_axes.empty();
+        if (locked || !jacobian.cell_lever.empty() || !has_scalar_inertia(inverse_mass)) {
+            tensor_.assign(jacobian, inverse_mass);
+            return f(tensor_);
         }
         scalar_.assign(jacobian, inverse_mass);
         return f(scalar_);

@@ -4,6 +4,7 @@
 #include <talus/core/check.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
+#include <talus/core/model.hpp>
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/problem/islands.hpp>
@@ -208,8 +209,9 @@ void DelassusSparse<Rows>::compress(std::size_t n, const std::vector<DelassusBlo
     }
 }
 
-static_assert(SweepableDelassus<DelassusSparse<2>, 2> && SweepableDelassus<DelassusSparse<3>, 3>);
-static_assert(SweepableDelassus<DelassusSparse<5>, 5>);
+TALUS_MODEL(SweepableDelassus<DelassusSparse<2>, 2>);
+TALUS_MODEL(SweepableDelassus<DelassusSparse<3>, 3>);
+TALUS_MODEL(SweepableDelassus<DelassusSparse<5>, 5>);
 
 }  // namespace talus
 

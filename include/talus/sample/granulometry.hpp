@@ -3,6 +3,7 @@
 
 #include <talus/core/dimension.hpp>
 #include <talus/core/input.hpp>
+#include <talus/core/model.hpp>
 #include <talus/sample/random.hpp>
 
 #include <algorithm>
@@ -40,7 +41,7 @@ class UniformRadii {
   private:
     double low_, high_;
 };
-static_assert(RadiusLaw<UniformRadii>);
+TALUS_MODEL(RadiusLaw<UniformRadii>);
 
 /// Radii in [low, high] with probability density proportional to r^-exponent. In space exponent 4
 /// gives equal volumes in equal intervals of log r, exponent 3 in equal intervals of r (in the
@@ -80,7 +81,7 @@ class PowerLawRadii {
     }
     double low_, high_, exponent_;
 };
-static_assert(RadiusLaw<PowerLawRadii>);
+TALUS_MODEL(RadiusLaw<PowerLawRadii>);
 
 /// Radii whose logarithm is normal, those outside [low, high] drawn again.
 class LogNormalRadii {
@@ -120,7 +121,7 @@ class LogNormalRadii {
 
     double median_, sigma_, low_, high_;
 };
-static_assert(RadiusLaw<LogNormalRadii>);
+TALUS_MODEL(RadiusLaw<LogNormalRadii>);
 
 /// Radii with the masses that a sieve curve gives: of all mass, the share of grains up to each
 /// radius. Between two points of the curve mass is uniform in the radius; two points at one radius
@@ -184,6 +185,7 @@ class SieveCurve {
     std::vector<PowerLawRadii> pieces_;
     std::vector<double> weight_;  // of numbers, summed up
 };
-static_assert(RadiusLaw<SieveCurve<2>> && RadiusLaw<SieveCurve<3>>);
+TALUS_MODEL(RadiusLaw<SieveCurve<2>>);
+TALUS_MODEL(RadiusLaw<SieveCurve<3>>);
 
 }  // namespace talus

@@ -69,7 +69,7 @@ inline std::vector<Vector<3>> random_polyhedron(Random& random, double radius,
         const double even = std::sqrt(8.0 * std::numbers::pi / (std::numbers::sqrt3 * count));
         auto corners = detail::darts(random, count, params.spread * even);
         if (corners.empty()) continue;
-        const auto faces = convex_hull(std::span<const Vector<3>>(corners)).faces;
+        const auto faces = convex_hull<3>(corners).faces;
         const Vector<3> centre = solid_centre(corners, faces).centroid;
         if (detail::least_depth(corners, faces, centre) < params.thickness) continue;
         for (auto& c : corners) c -= centre;

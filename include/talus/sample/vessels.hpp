@@ -6,6 +6,7 @@
 #include <talus/sample/granulometry.hpp>
 #include <talus/sample/random.hpp>
 #include <talus/spatial/tilt.hpp>
+#include <talus/spatial/twist.hpp>
 
 #include <cmath>
 #include <numbers>

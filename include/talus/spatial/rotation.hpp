@@ -12,16 +12,17 @@
 namespace talus {
 
 /// A rotation of space: a unit complex number in the plane, a unit quaternion in space.
-/// Supplied: identity, exp, log, product, inverse, action on vectors, matrix, normalized.
+/// Supplied: identity, exp, log, product, inverse, action on vectors, matrix, normalized. (Written
+/// as templates, so that programs of the plane have none of space compiled.)
 template <int Dim>
 requires SpaceDimension<Dim>
 class Rotation;
 
 /// Rotation of the plane, stored as (cos, sin).
-template <>
-class Rotation<2> {
+template <int Dim>
+requires SpaceDimension<Dim> &&(Dim == 2) class Rotation<Dim> {
   public:
-    Rotation() = default;
+    Rotation() noexcept {}
     explicit Rotation(double angle) : c_(std::cos(angle)), s_(std::sin(angle)) {}  ///< [rad]
 
     static Rotation identity() { return {}; }
@@ -73,10 +74,10 @@ class Rotation<2> {
 };
 
 /// Rotation of space, stored as a unit quaternion.
-template <>
-class Rotation<3> {
+template <int Dim>
+requires SpaceDimension<Dim> &&(Dim == 3) class Rotation<Dim> {
   public:
-    Rotation() : q_(Eigen::Quaterniond::Identity()) {}
+    Rotation() noexcept : q_(Eigen::Quaterniond::Identity()) {}
     explicit Rotation(const Eigen::Quaterniond& q) : q_(q.normalized()) {}
 
     static Rotation identity() { return {}; }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace talus {
@@ -46,12 +47,28 @@ class BodyShapes {
         routines_.add(needs);
         version_ = new_version();
     }
-    void replace(std::size_t body, ShapeType shape, const NarrowRoutines<Dim>& needs) {
+    /// Adds the shape of a body, then the body by `add_body()`, and the shape is gone if that
+    /// throws. In this order, as shapes can be refused: a body taken back would be missed.
+    template <class S, class AddBody>
+    auto add(const S& shape, const AddBody& add_body) {
+        push_back(ShapeType(shape), needs<S>());
+        try {
+            return add_body();
+        } catch (...) {
+            shapes_.pop_back();
+            bounding_radius_.pop_back();
+            half_thickness_.pop_back();
+            throw;
+        }
+    }
+    template <class S>
+    void replace(std::size_t body, const S& given) {
+        ShapeType shape(given);
         const double radius = radius_of(shape), thickness = thickness_of(shape, radius);
         shapes_[body] = std::move(shape);
         bounding_radius_[body] = radius;
         half_thickness_[body] = thickness;
-        routines_.add(needs);
+        routines_.add(needs<S>());
         version_ = new_version();
     }
     /// Keeps those whose new index `to` is not negative, in their order.
@@ -72,6 +89,11 @@ class BodyShapes {
     }
 
   private:
+    /// The routines for a shape given as an S: a type of one's own may hold it as something else.
+    template <class S>
+    static const NarrowRoutines<Dim>& needs() {
+        return narrow_routines<Dim, std::conditional_t<is_any_shape<ShapeType>, S, ShapeType>>;
+    }
     static double radius_of(const ShapeType& shape) {
         const Aabb<Dim> box = shape.aabb(Pose<Dim>{});
         return box.bounded() ? box.low.cwiseAbs().cwiseMax(box.high).norm()

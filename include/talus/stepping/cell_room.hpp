@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <talus/assembly/cell_images.hpp>
 #include <talus/core/input.hpp>
 #include <talus/dynamics/bodies.hpp>
 #include <talus/dynamics/periodic_cell.hpp>
+#include <talus/geometry/half_space.hpp>
+#include <talus/geometry/round_hole.hpp>
 #include <talus/geometry/shape_view.hpp>
 
 #include <cmath>
@@ -71,5 +74,25 @@ void deform(PeriodicCell<Dim>& cell, double duration) {
                std::abs(duration) * cell.velocity_gradient().norm(), 0.0, most_strain);
     cell.advance(duration);
 }
+
+/// How a system and its step treat a periodic cell: through pointers, so that programs without one
+/// have none of it compiled.
+template <int Dim, class SystemType>
+struct CellRoutines {
+    StepCell<Dim> (*images)(const PeriodicCell<Dim>&, double h);
+    void (*deform)(SystemType&, double duration);  ///< and checks the room
+};
+template <int Dim, class ShapeType, class SystemType>
+inline constexpr CellRoutines<Dim, SystemType> cell_routines{
+    [](const PeriodicCell<Dim>& cell, double h) {
+        return StepCell<Dim>::of(cell, Matrix<Dim>(h * cell.velocity_gradient()));
+    },
+    [](SystemType& system, double duration) {
+        PeriodicCell<Dim> cell = *system.cell();
+        deform(cell, duration);
+        require_room<Dim, ShapeType>(cell, system.bodies, system.shapes(),
+                                     system.bounding_radius());
+        system.put_cell(cell);
+    }};
 
 }  // namespace talus

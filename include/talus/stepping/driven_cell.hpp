@@ -44,4 +44,17 @@ void apply_to_cell(SystemType& system, StepData<Dim, Law>& data) {
     system.put_cell(cell);
 }
 
+/// How a step treats a driven cell: through pointers, so that programs without one have none of it
+/// compiled.
+template <class SystemType, class Data>
+struct DriveRoutines {
+    void (*pose)(const SystemType&, Data&);
+    void (*add_loads)(Data&);
+    void (*apply)(SystemType&, Data&);
+};
+template <int Dim, class Law, class SystemType>
+inline constexpr DriveRoutines<SystemType, StepData<Dim, Law>> drive_routines{
+    &pose_cell<Dim, Law, SystemType>, &add_cell_loads<Dim, Law>,
+    &apply_to_cell<Dim, Law, SystemType>};
+
 }  // namespace talus

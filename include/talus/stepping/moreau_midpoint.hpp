@@ -15,7 +15,6 @@
 #include <talus/dynamics/drift.hpp>
 #include <talus/dynamics/kept_state.hpp>
 #include <talus/solver/concepts.hpp>
-#include <talus/stepping/driven_cell.hpp>
 #include <talus/stepping/gap_anticipating.hpp>
 #include <talus/stepping/step_data.hpp>
 #include <talus/stepping/step_hooks.hpp>
@@ -159,7 +158,7 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     hold_moving_surfaces(system, data);
     measure_rolling(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
-    if (data.cell && system.cell_drive()) pose_cell(system, data);
+    if (data.cell && system.cell_drive()) system.drive_routines().pose(system, data);
     hooks_.matrices_known(system, data);
     hooks_.forces_known(system, data);
     assemble_contacts(system, params, data);
@@ -185,7 +184,7 @@ TALUS_OF_STEP::complete(SystemType& system, Data& data) {
     apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
     if constexpr (has_rolling_rows<Law>)
         apply_moments<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.moment, data.end);
-    if (!data.from_home.empty()) apply_to_cell(system, data);
+    if (!data.from_home.empty()) system.drive_routines().apply(system, data);
     hooks_.velocities_known(system, data);
     finish(system, data);
     hooks_.finished(system, data);
@@ -235,12 +234,10 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
     require_count("bodies after the forces were called", system.bodies.count(),
                   "the beginning of the step", data.begin.size());
     look_.measure(system, params, data);
-    Matrix<Dim> strain = Matrix<Dim>::Zero();
-    if (data.cell) strain = data.h * data.cell->velocity_gradient();
     detection_.detect(system.bodies, system.shape_list(),
                       params.skin * system.mean_bounding_radius(), look_.reach, look_.motion,
                       params.contact_tolerance.value_or(0.0), system.ignored, data.contacts,
-                      data.cell, strain);
+                      system.step_cell(data.h));
     data.contacts.keep_if([&](std::size_t c) {
         const ContactKey& key = data.contacts.key[c];
         if (!can_part(data.contacts, c, system.bodies) && !holds_any_pull<Dim>(system.law_of(key)))
@@ -323,7 +320,7 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
     for (const ContactKey& key : data.contacts.key) data.problem.laws.push_back(system.law_of(key));
     assemble_velocities<Dim, Law>(data.problem.jacobian, data.begin, data.free, data.problem.laws,
                                   data.problem.free_velocity);
-    if (!data.from_home.empty()) add_cell_loads(data);
+    if (!data.from_home.empty()) system.drive_routines().add_loads(data);
     const bool by_rule = !params.contact_tolerance && params.gaps_may_close;
     if (params.scheme != Scheme::gap_anticipating && !by_rule) return;
     for (std::size_t c = 0; c < data.contact_count(); ++c) {

@@ -2,13 +2,10 @@
 #pragma once
 
 #include <talus/core/column.hpp>
-#include <talus/core/ids.hpp>
 #include <talus/core/input.hpp>
 #include <talus/core/instantiate.hpp>
 #include <talus/dynamics/bodies.hpp>
-#include <talus/dynamics/cell_drive.hpp>
 #include <talus/dynamics/forces.hpp>
-#include <talus/dynamics/periodic_cell.hpp>
 #include <talus/dynamics/place.hpp>
 #include <talus/dynamics/prescribed_motion.hpp>
 #include <talus/dynamics/run_state.hpp>
@@ -19,7 +16,9 @@
 #include <talus/law/weighted_mean.hpp>
 #include <talus/stepping/body_shapes.hpp>
 #include <talus/stepping/cell_room.hpp>
+#include <talus/stepping/driven_cell.hpp>
 #include <talus/stepping/obstacle_checks.hpp>
+#include <talus/stepping/step_data.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -68,8 +67,9 @@ struct System {
         check_material(material);
         const auto principal = in_principal_frame<Dim>(shape);
         const Inertia<Dim> inertia{density * principal.volume, density * principal.frame.moments};
-        return attach(bodies.add(inertia, pose * principal.frame.pose, twist, material),
-                      principal.shape, narrow_routines<Dim, S>);
+        return shapes_.add(principal.shape, [&] {
+            return bodies.add(inertia, pose * principal.frame.pose, twist, material);
+        });
     }
 
     /// Adds a body of the given inertia, whose shape is given in its principal frame.
@@ -78,7 +78,7 @@ struct System {
                   const Twist<Dim>& twist = {}, MaterialIndex material = 0) {
         require_between_steps();
         check_material(material);
-        return attach(bodies.add(inertia, pose, twist, material), shape, narrow_routines<Dim, S>);
+        return shapes_.add(shape, [&] { return bodies.add(inertia, pose, twist, material); });
     }
 
     /// Adds an obstacle that moves as prescribed, where it is at `time()`; a pose in place of a
@@ -88,12 +88,15 @@ struct System {
                            MaterialIndex material = 0) {
         require_between_steps();
         check_material(material);
-        const BodyIndex body =
-            attach(bodies.add_obstacle(motion.pose(time_), motion.twist(time_), material), shape,
-                   narrow_routines<Dim, S>);
-        obstacles.push_back({body, std::move(motion)});
-        placed_.push_back(placed_state(body));
-        return body;
+        return shapes_.add(shape, [&] {
+            detail::make_room(obstacles, obstacles.size() + 1);
+            detail::make_room(placed_, placed_.size() + 1);
+            const BodyIndex body =
+                bodies.add_obstacle(motion.pose(time_), motion.twist(time_), material);
+            obstacles.push_back({body, std::move(motion)});
+            placed_.push_back(placed_state(body));
+            return body;
+        });
     }
 
     /// Takes out the bodies, free ones and obstacles, for which `out(i)` holds. Those after them
@@ -130,7 +133,7 @@ struct System {
             detail::reject("body", body,
                            detail::numbered("an index from 0 below", shapes_.count(),
                                             ", the number of bodies with shapes"));
-        shapes_.replace(static_cast<std::size_t>(body), ShapeType(shape), narrow_routines<Dim, S>);
+        shapes_.replace(static_cast<std::size_t>(body), shape);
     }
     /// All of that as contact detection takes it, with its version, which copies share.
     ShapeList<Dim, ShapeType> shape_list() const { return shapes_.list(); }
@@ -161,7 +164,12 @@ struct System {
         step_.under_way = true;
     }
     void end_step() noexcept { step_.under_way = false; }
-    void require_between_steps() const;
+    void require_between_steps() const {
+        if (step_.under_way)
+            throw input_error(
+                "bodies or shapes were changed, or a step begun, within a step, but must be "
+                "between steps");
+    }
 
     /// The periodic cell, if there is one, at `time()`.
     const std::optional<PeriodicCell<Dim>>& cell() const { return cell_; }
@@ -171,6 +179,7 @@ struct System {
         require_between_steps();
         require_room<Dim, ShapeType>(cell, bodies, shapes(), bounding_radius());
         cell_ = cell;
+        cell_routines_ = &talus::cell_routines<Dim, ShapeType, System>;
     }
     void remove_cell() {
         require_between_steps();
@@ -188,13 +197,17 @@ struct System {
         require_between_steps();
         if (drive) drive->require_valid();
         drive_ = drive;
+        drive_routines_ = &talus::drive_routines<Dim, Law, System>;
     }
+    const auto& drive_routines() const { return *drive_routines_; }
     const std::optional<CellDrive<Dim>>& cell_drive() const { return drive_; }
     /// Deforms the cell for a time [s], within a step.
     void move_cell(double duration) {
-        if (!cell_) return;
-        deform(*cell_, duration);
-        require_room<Dim, ShapeType>(*cell_, bodies, shapes(), bounding_radius());
+        if (cell_) cell_routines_->deform(*this, duration);
+    }
+    /// The cell as contact detection takes it in a step of that length [s].
+    StepCell<Dim> step_cell(double h) const {
+        return cell_ ? cell_routines_->images(*cell_, h) : StepCell<Dim>{};
     }
     void put_cell(const std::optional<PeriodicCell<Dim>>& cell) noexcept { cell_ = cell; }
 
@@ -209,7 +222,6 @@ struct System {
 
   private:
     void check_material(MaterialIndex material) const;
-    BodyIndex attach(BodyIndex body, ShapeType shape, const NarrowRoutines<Dim>& needs);
     void move_up(const Column<BodyIndex>& to);
 
     /// Of this system alone: a copy, taken within a step, is in none.
@@ -229,6 +241,8 @@ struct System {
     BodyShapes<Dim, ShapeType> shapes_;
     std::optional<PeriodicCell<Dim>> cell_;
     std::optional<CellDrive<Dim>> drive_;
+    const CellRoutines<Dim, System>* cell_routines_ = nullptr;
+    const DriveRoutines<System, StepData<Dim, Law>>* drive_routines_ = nullptr;
 };
 
 template <int Dim, class Law, class ShapeType>
@@ -308,33 +322,12 @@ void System<Dim, Law, ShapeType>::set_time(double t) noexcept {
 
 template <int Dim, class Law, class ShapeType>
 requires SpaceDimension<Dim>
-void System<Dim, Law, ShapeType>::require_between_steps() const {
-    if (step_.under_way)
-        throw input_error(
-            "bodies or shapes were changed, or a step begun, within a step, but must be between "
-            "steps");
-}
-
-template <int Dim, class Law, class ShapeType>
-requires SpaceDimension<Dim>
 void System<Dim, Law, ShapeType>::check_material(MaterialIndex material) const {
     if (material < 0 || material >= laws.material_count())
         detail::reject(
             "material", material,
             detail::numbered("an index below", static_cast<std::size_t>(laws.material_count()),
                              ", the number of materials"));
-}
-
-template <int Dim, class Law, class ShapeType>
-requires SpaceDimension<Dim> BodyIndex System<Dim, Law, ShapeType>::attach(
-    BodyIndex body, ShapeType shape, const NarrowRoutines<Dim>& needs) {
-    try {
-        shapes_.push_back(std::move(shape), needs);
-    } catch (...) {
-        bodies.keep_if([&](std::size_t i) { return i != static_cast<std::size_t>(body); });
-        throw;
-    }
-    return body;
 }
 
 template <int Dim, class Law, class ShapeType>
@@ -388,6 +381,7 @@ void System<Dim, Law, ShapeType>::restore(const RunState<Dim, ShapeType>& state)
     if (state.cell) other.set_cell(*state.cell);
     other.forces = std::move(forces);
     other.drive_ = drive_;
+    other.drive_routines_ = drive_routines_;
     *this = std::move(other);
 }
 

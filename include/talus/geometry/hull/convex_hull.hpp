@@ -50,10 +50,14 @@ struct ConvexHull {
 /// vertex that lies in a face or on an edge to that tolerance is a corner of none. Throws
 /// input_error naming the vertex that is not finite, coincides with another or lies deeper inside;
 /// or when all lie in a plane. As costly as detail::TriangleHull and faces * vertices.
-ConvexHull convex_hull(std::span<const Vector<3>> points, const HullOptions& options = {});
+template <int Dim>
+requires(Dim == 3) ConvexHull
+    convex_hull(std::span<const Vector<Dim>> points, const HullOptions& options = {});
 
 /// The same of points of which any may lie inside or coincide.
-ConvexHull convex_hull_of_cloud(std::span<const Vector<3>> points, const HullOptions& options = {});
+template <int Dim>
+requires(Dim == 3) ConvexHull
+    convex_hull_of_cloud(std::span<const Vector<Dim>> points, const HullOptions& options = {});
 
 namespace detail {
 
@@ -106,13 +110,14 @@ HullTolerance hull_tolerance(std::span<const Vector<Dim>> points, double extent,
 }
 
 /// Joins the triangles of a hull that lie in one plane to a tolerance.
-class FaceMerger {
+template <int Dim>
+requires(Dim == 3) class FaceMerger {
   public:
-    FaceMerger(std::span<const Vector<3>> points,
-               const std::vector<TriangleHull::Triangle>& triangles, double tolerance)
+    FaceMerger(std::span<const Vector<Dim>> points,
+               const std::vector<typename TriangleHull<Dim>::Triangle>& triangles, double tolerance)
         : points_(points), triangles_(triangles), tolerance_(tolerance) {
         for (const auto& t : triangles_) {
-            const Vector<3>& a = points_[t.corners[0]];
+            const Vector<Dim>& a = points_[t.corners[0]];
             areas_.push_back((points_[t.corners[1]] - a).cross(points_[t.corners[2]] - a));
             for (const std::uint32_t v : t.corners) surface_.push_back(v);
         }
@@ -167,8 +172,8 @@ class FaceMerger {
         }
         return members;
     }
-    Plane fitted(const std::vector<std::uint32_t>& members) const {
-        Plane plane;
+    Plane<Dim> fitted(const std::vector<std::uint32_t>& members) const {
+        Plane<Dim> plane;
         for (const std::uint32_t t : members) plane.normal += areas_[t];
         plane.normal.normalize();
         double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -180,7 +185,8 @@ class FaceMerger {
         plane.offset = 0.5 * (low + high);
         return plane;
     }
-    std::vector<std::uint32_t> reached(std::uint32_t seed, const Plane& plane, double tolerance) {
+    std::vector<std::uint32_t> reached(std::uint32_t seed, const Plane<Dim>& plane,
+                                       double tolerance) {
         std::vector<std::uint32_t> members{seed};
         ++visit_;
         visited_[seed] = visit_;
@@ -292,7 +298,7 @@ class FaceMerger {
         return std::ranges::all_of(loops, [&](const VertexLoop& loop) {
             // A triangle of the hull has nothing above it.
             if (triangle_count[static_cast<std::size_t>(&loop - loops.data())] == 1) return true;
-            const Plane plane = plane_of(points_, loop);
+            const Plane<Dim> plane = plane_of<Dim>(points_, loop);
             return std::ranges::all_of(
                        surface_, [&](auto v) { return plane.height(points_[v]) <= tolerance_; }) &&
                    std::ranges::all_of(loop, [&](std::uint32_t v) {
@@ -301,38 +307,32 @@ class FaceMerger {
         });
     }
 
-    std::span<const Vector<3>> points_;
-    const std::vector<TriangleHull::Triangle>& triangles_;
+    std::span<const Vector<Dim>> points_;
+    const std::vector<typename TriangleHull<Dim>::Triangle>& triangles_;
     double tolerance_;
-    std::vector<Vector<3>> areas_;        ///< twice the area of each triangle, outwards [m^2]
+    std::vector<Vector<Dim>> areas_;      ///< twice the area of each triangle, outwards [m^2]
     std::vector<std::uint32_t> surface_;  ///< the corners of triangles
     std::vector<std::uint32_t> group_, visited_;
     std::uint32_t group_count_ = 0, visit_ = 0;
 };
 
-/// Height of a point above the highest of the planes.
-inline double height_above(std::span<const Plane> planes, const Vector<3>& x) {
-    double height = -std::numeric_limits<double>::infinity();
-    for (const Plane& p : planes) height = std::max(height, p.height(x));
-    return height;
-}
-
 }  // namespace detail
 
-TALUS_FUNCTION ConvexHull convex_hull_of_cloud(std::span<const Vector<3>> points,
-                                               const HullOptions& options) {
+template <int Dim>
+requires(Dim == 3) ConvexHull
+    convex_hull_of_cloud(std::span<const Vector<Dim>> points, const HullOptions& options) {
     if (points.size() < 4 || points.size() > 0xffffffffu)
         detail::reject("vertex count", static_cast<double>(points.size()), "at least 4");
     const double extent = detail::extent_of(points, options);
-    const detail::TriangleHull hull(points, detail::coincident * extent);
+    const detail::TriangleHull<Dim> hull(points, detail::coincident * extent);
     ConvexHull result;
     // A body no thicker than the rounding of its corners tells it was not rounded so much.
-    auto tolerance = detail::hull_tolerance(points, extent, options);
+    auto tolerance = detail::hull_tolerance<Dim>(points, extent, options);
     result.tolerance = std::min(tolerance.value, hull.height() / 16.0);
     tolerance.few_digits |= result.tolerance < tolerance.value;
     std::optional<std::vector<VertexLoop>> loops;
     while (!loops && result.tolerance > 1e-12 * extent) {
-        loops = detail::FaceMerger(points, hull.triangles(), result.tolerance).faces();
+        loops = detail::FaceMerger<Dim>(points, hull.triangles(), result.tolerance).faces();
         if (!loops) result.tolerance *= 0.7;
     }
     if (loops)
@@ -343,7 +343,7 @@ TALUS_FUNCTION ConvexHull convex_hull_of_cloud(std::span<const Vector<3>> points
     double unevenness = 0.0;
     for (VertexLoop& loop : result.faces) {
         std::rotate(loop.begin(), std::ranges::min_element(loop), loop.end());
-        const detail::Plane plane = detail::plane_of(points, loop);
+        const detail::Plane<Dim> plane = detail::plane_of<Dim>(points, loop);
         for (const std::uint32_t v : loop)
             unevenness = std::max(unevenness, std::abs(plane.height(points[v])));
     }
@@ -352,8 +352,9 @@ TALUS_FUNCTION ConvexHull convex_hull_of_cloud(std::span<const Vector<3>> points
     return result;
 }
 
-TALUS_FUNCTION ConvexHull convex_hull(std::span<const Vector<3>> points,
-                                      const HullOptions& options) {
+template <int Dim>
+requires(Dim == 3) ConvexHull
+    convex_hull(std::span<const Vector<Dim>> points, const HullOptions& options) {
     const double flat = detail::coincident * detail::extent_of(points, options);
     // Along one axis, coincident points are neighbours.
     std::vector<std::size_t> order(points.size());
@@ -370,13 +371,18 @@ TALUS_FUNCTION ConvexHull convex_hull(std::span<const Vector<3>> points,
         }
     ConvexHull hull = convex_hull_of_cloud(points, options);
     std::vector<bool> corner(points.size(), false);
-    std::vector<detail::Plane> planes;
+    std::vector<detail::Plane<Dim>> planes;
     for (const VertexLoop& loop : hull.faces) {
-        planes.push_back(detail::plane_of(points, loop));
+        planes.push_back(detail::plane_of<Dim>(points, loop));
         for (const std::uint32_t v : loop) corner[v] = true;
     }
+    const auto depth_of = [&](const Vector<Dim>& x) {
+        double depth = std::numeric_limits<double>::infinity();
+        for (const auto& plane : planes) depth = std::min(depth, -plane.height(x));
+        return depth;
+    };
     for (std::size_t i = 0; i < points.size(); ++i)
-        if (const double depth = corner[i] ? 0.0 : -detail::height_above(planes, points[i]);
+        if (const double depth = corner[i] ? 0.0 : depth_of(points[i]);
             depth > 2.0 * hull.tolerance)
             throw input_error(detail::vertex_name(options, i) +
                               " is no corner of the convex hull but " + detail::text_of(depth) +
@@ -387,3 +393,8 @@ TALUS_FUNCTION ConvexHull convex_hull(std::span<const Vector<3>> points,
 #endif
 
 }  // namespace talus
+
+TALUS_IN_LIBRARY(talus::ConvexHull talus::convex_hull<3>(std::span<const talus::Vector<3>>,
+                                                         const talus::HullOptions&))
+TALUS_IN_LIBRARY(talus::ConvexHull talus::convex_hull_of_cloud<3>(std::span<const talus::Vector<3>>,
+                                                                  const talus::HullOptions&))

@@ -13,15 +13,19 @@
 
 namespace talus::detail {
 
+// All here is of space: templates of one dimension, so that what no program calls is not compiled.
+
+template <int Dim>
 struct Plane {
-    Vector<3> normal = Vector<3>::Zero();
+    Vector<Dim> normal = Vector<Dim>::Zero();
     double offset = 0.0;
-    double height(const Vector<3>& x) const { return normal.dot(x) - offset; }
+    double height(const Vector<Dim>& x) const { return normal.dot(x) - offset; }
 };
 
 /// The plane that ConvexCore gives a loop: along the sum of its triangles, through the mean corner.
-inline Plane plane_of(std::span<const Vector<3>> points, std::span<const std::uint32_t> loop) {
-    Plane plane;
+template <int Dim>
+Plane<Dim> plane_of(std::span<const Vector<Dim>> points, std::span<const std::uint32_t> loop) {
+    Plane<Dim> plane;
     for (std::size_t k = 1; k + 1 < loop.size(); ++k)
         plane.normal +=
             (points[loop[k]] - points[loop[0]]).cross(points[loop[k + 1]] - points[loop[0]]);
@@ -37,7 +41,8 @@ inline Plane plane_of(std::span<const Vector<3>> points, std::span<const std::ui
 /// always closed and its corners are exactly the extreme points of the grid's. Each new corner
 /// replaces the triangles that it sees or lies in the plane of, which makes no triangle flat.
 /// O(n log n) for most inputs.
-class TriangleHull {
+template <int Dim>
+requires(Dim == 3) class TriangleHull {
   public:
     using Corners = std::array<std::uint32_t, 3>;
     /// Neighbour k lies across the side from corner k to corner k + 1.
@@ -46,7 +51,7 @@ class TriangleHull {
     };
 
     /// Throws input_error when all points lie on a line or in a plane, to `flat` [m].
-    TriangleHull(std::span<const Vector<3>> points, double flat) {
+    TriangleHull(std::span<const Vector<Dim>> points, double flat) {
         put_on_grid(points);
         start(points, flat);
         for (std::uint32_t t = 0; t < all_.size(); ++t)
@@ -67,8 +72,8 @@ class TriangleHull {
         bool alive = true, seen = false;
     };
 
-    void put_on_grid(std::span<const Vector<3>> points) {
-        Vector<3> low = points[0], high = points[0];
+    void put_on_grid(std::span<const Vector<Dim>> points) {
+        Vector<Dim> low = points[0], high = points[0];
         for (const auto& p : points) {
             low = low.cwiseMin(p);
             high = high.cwiseMax(p);
@@ -94,7 +99,7 @@ class TriangleHull {
     }
 
     /// Four points far apart; the first triangles and what lies above them.
-    void start(std::span<const Vector<3>> points, double flat) {
+    void start(std::span<const Vector<Dim>> points, double flat) {
         const auto farthest = [&](auto measure) {
             std::uint32_t best = 0;
             for (std::uint32_t p = 1; p < points.size(); ++p)
@@ -102,14 +107,14 @@ class TriangleHull {
             return best;
         };
         const std::uint32_t a = farthest([](const auto& x) { return -x[0]; });
-        const Vector<3> o = points[a];
+        const Vector<Dim> o = points[a];
         const std::uint32_t b = farthest([&](const auto& x) { return (x - o).norm(); });
-        const Vector<3> u = (points[b] - o).normalized();
+        const Vector<Dim> u = (points[b] - o).normalized();
         const std::uint32_t c = farthest([&](const auto& x) { return u.cross(x - o).norm(); });
-        const Vector<3> n = u.cross(points[c] - o);
+        const Vector<Dim> n = u.cross(points[c] - o);
         if (!(n.norm() > flat))
             throw input_error("the vertices lie on a line, but must span a volume");
-        const Vector<3> unit = n.normalized();
+        const Vector<Dim> unit = n.normalized();
         const std::uint32_t d = farthest([&](const auto& x) { return std::abs(unit.dot(x - o)); });
         height_ = std::abs(unit.dot(points[d] - o));
         const Wide sign = volume({a, b, c}, d);

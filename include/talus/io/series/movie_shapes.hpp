@@ -2,6 +2,9 @@
 #pragma once
 
 #include <talus/core/printable.hpp>
+#include <talus/geometry/ball.hpp>
+#include <talus/geometry/half_space.hpp>
+#include <talus/geometry/round_hole.hpp>
 #include <talus/geometry/shape_view.hpp>
 #include <talus/io/series/directions.hpp>
 

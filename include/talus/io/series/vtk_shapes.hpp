@@ -3,6 +3,7 @@
 
 #include <talus/core/input.hpp>
 #include <talus/dynamics/bodies.hpp>
+#include <talus/geometry/half_space.hpp>
 #include <talus/geometry/shape_view.hpp>
 #include <talus/io/series/directions.hpp>
 #include <talus/io/vtk.hpp>
