@@ -40,8 +40,9 @@ class LagrangianMidpoint {
     using Data = LagrangianStepData<System>;
 
     /// Fills `data`, of which q_begin, begin and t_begin are given. Throws input_error on what the
-    /// system gives that is not as it must be, and lets pass what the system, a hook or the solver
-    /// throws; what is remembered is then as it was.
+    /// system gives that is not as it must be (matrices, forces, gaps, laws of closed contacts),
+    /// and lets pass what the system, a hook or the solver throws; what is remembered is then as it
+    /// was.
     template <AssembledSolver<rows, Law> Solver>
     void step(System& system, const LagrangianParams& params, Solver& solver, Data& data) {
         data.h = params.h;
@@ -68,6 +69,7 @@ class LagrangianMidpoint {
         data.q_end = data.q_mid + 0.5 * data.h * data.end;
         hooks_.finished(system, data);
         remember(data);
+        free_velocity_.remember(data);
     }
 
     /// Called between the stages (stepping/step_hooks.hpp): with the system and this data. In
@@ -76,7 +78,10 @@ class LagrangianMidpoint {
     Hooks& hooks() { return hooks_; }
 
     /// Makes the next step start without impulses of the last.
-    void forget() { memory_.clear(); }
+    void forget() {
+        memory_.clear();
+        free_velocity_.forget();
+    }
     /// Throws input_error unless the system's functions give what they must at (t, q), and, if
     /// asked, unless its Jacobians are those of its gaps.
     void require_valid(const System& system, const LagrangianParams& params, double t,
@@ -86,8 +91,9 @@ class LagrangianMidpoint {
         data.factor.factor(data.mass, t);
         evaluation_.force(system, t, q, u, data.force);
         evaluation_.contacts(system, t, q, data.contacts);
-        evaluation_.require_laws(data.contacts);
-        if (params.check_jacobians != CheckJacobians::never) check_.require(system, t, q);
+        evaluation_.require_laws(data.contacts, t);
+        if (params.check_jacobians != CheckJacobians::never)
+            check_.require(system, t, q, params.coordinate_scale);
     }
 
   private:
@@ -95,7 +101,7 @@ class LagrangianMidpoint {
         evaluation_.mass(system, data.t_mid, data.q_mid, data.mass);
         evaluation_.contacts(system, data.t_mid, data.q_mid, data.contacts);
         if (params.check_jacobians == CheckJacobians::each_step)
-            check_.require(system, data.t_mid, data.q_mid);
+            check_.require(system, data.t_mid, data.q_mid, params.coordinate_scale);
         data.closed.clear();
         for (std::size_t k = 0; k < data.contacts.size(); ++k)
             if (data.contacts[k].gap <= params.contact_tolerance) data.closed.push_back(k);
@@ -110,6 +116,7 @@ class LagrangianMidpoint {
         for (std::size_t c = 0; c < n; ++c) {
             const std::size_t place = data.closed[c];
             const auto& contact = data.contacts[place];
+            evaluation_.require_law(contact, place, data.t_mid);
             mobility_[c] = contact.rows.transpose();
             data.factor.forward(mobility_[c]);
             Vector<rows> u = contact.relative_velocity(data.free);
