@@ -6,6 +6,7 @@
 #include <talus/core/room.hpp>
 #include <talus/lagrangian/evaluation.hpp>
 #include <talus/lagrangian/jacobian_check.hpp>
+#include <talus/lagrangian/state.hpp>
 #include <talus/lagrangian/step_data.hpp>
 #include <talus/lagrangian/step_params.hpp>
 #include <talus/lagrangian/velocity_forces.hpp>
@@ -81,6 +82,19 @@ class LagrangianMidpoint {
     void forget() {
         memory_.clear();
         free_velocity_.forget();
+    }
+    /// What it remembers: into a state, and, of one of the right rows, back.
+    void write_to(LagrangianState& state) const {
+        state.rows = rows;
+        for (const Vector<rows>& r : memory_)
+            state.impulse.insert(state.impulse.end(), r.data(), r.data() + rows);
+        state.largest_velocity = free_velocity_.largest();
+    }
+    void restore(const LagrangianState& state) {
+        memory_.resize(state.impulse.size() / static_cast<std::size_t>(rows));
+        for (std::size_t k = 0; k < state.impulse.size(); ++k)
+            memory_[k / rows][static_cast<int>(k % rows)] = state.impulse[k];
+        free_velocity_.forget(state.largest_velocity);
     }
     /// Throws input_error unless the system's functions give what they must at (t, q), and, if
     /// asked, unless its Jacobians are those of its gaps.
