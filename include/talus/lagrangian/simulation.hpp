@@ -127,7 +127,7 @@ class LagrangianSimulation {
     }
 
     /// All that the next step depends on apart from system, settings and solver: to go back to, to
-    /// try from, or to write down (io/checkpoint).
+    /// try from, or to write down (NumberRecord).
     LagrangianState state() const {
         LagrangianState state;
         state.q.assign(q_.data(), q_.data() + q_.size());

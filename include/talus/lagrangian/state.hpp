@@ -14,7 +14,8 @@ namespace talus {
 
 /// All that the next step of a LagrangianSimulation depends on, apart from what its program says
 /// again when it goes on: system, settings, solver. A run that goes on from here makes the same
-/// bits as one that never stopped. As a record it is part of a file (io/checkpoint).
+/// bits as one that never stopped. As a record (`record_of`) it can be carried along in a
+/// checkpoint.
 struct LagrangianState {
     std::vector<double> q, u;       ///< as many as coordinates
     double h = 0.0;                 ///< step size of the simulation [s]
