@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "lagrangian/systems.hpp"
@@ -95,6 +96,76 @@ BOOST_AUTO_TEST_CASE(the_check_finds_what_is_wrong) {
     ByHand tangent = right;
     tangent.off_tangent = 1e-6;
     BOOST_TEST(mentions(complaint(tangent), "tangential row 1[0]"), complaint(tangent));
+}
+
+namespace {
+
+/// A finger that turns and slides over a ball, all of a size; defined close to the ball alone.
+struct Finger {
+    static constexpr int dof = 2;
+    double radius, off = 0.0;
+
+    void mass(double, const auto&, auto& a) const { a.setIdentity(); }
+    void force(double, const auto&, const auto&, auto& f) const { f.setZero(); }
+    void contacts(double, const auto& q, auto& contacts) const {
+        const double height = std::sqrt(radius * radius - q[0] * q[0]);
+        contacts.add(q[1] - height, PlaneLaw{}, "finger").rows.row(0) << q[0] / height + off, 1.0;
+    }
+};
+/// A table whose motion is known from t = 0 on, and which is at full speed at once.
+struct LateTable {
+    static constexpr int dof = 1;
+    double until = 1e9, off = 0.0;
+    bool throws = true;
+
+    void mass(double, const auto&, auto& a) const { a << 1.0; }
+    void force(double, const auto&, const auto&, auto& f) const { f << -g; }
+    void contacts(double t, const auto& q, auto& contacts) const {
+        if (throws && (t < 0.0 || t > until)) throw std::out_of_range("no motion at that time");
+        auto& c = contacts.add(q[0] - (t < 0.0 ? 0.0 : std::sin(3.0 * t)), PlaneLaw{}, "table");
+        c.rows(0, 0) = 1.0;
+        c.prescribed[0] = -3.0 * std::cos(3.0 * t) + off;
+    }
+};
+template <class System, class Coordinates>
+std::string complaint_at(const System& system, double t, const Coordinates& q, double scale = 1.0) {
+    try {
+        talus::require_jacobians(system, t, q, scale);
+    } catch (const talus::input_error& e) {
+        return e.what();
+    }
+    return {};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(machines_of_any_size_are_checked) {
+    for (const double size : {1e-7, 1e-6, 1e-3, 1.0, 1e3, 1e6})
+        for (const double scale : {1.0, size}) {
+            const Two q = size * Two(0.6, 0.9);
+            BOOST_TEST(complaint_at(Finger{size}, 0.0, q, scale) == "");
+            BOOST_TEST(mentions(complaint_at(Finger{size, 1e-3}, 0.0, q, scale), "normal row[0]"));
+            BOOST_TEST(mentions(complaint_at(Finger{size, 1e-4}, 0.0, q, scale), "normal row[0]"));
+        }
+    talus::LagrangianSimulation small(Finger{1e-6}, Two(0.6e-6, 0.9e-6));
+    BOOST_TEST(small.run(0.01).certified());
+}
+
+BOOST_AUTO_TEST_CASE(motions_may_begin_and_end) {
+    for (const bool throws : {true, false}) {
+        BOOST_TEST(complaint_at(LateTable{.throws = throws}, 0.0, Angle(1.0)) == "");
+        BOOST_TEST(mentions(complaint_at(LateTable{.off = 1e-3, .throws = throws}, 0.0, Angle(1.0)),
+                            "prescribed[0] of contact 0 (table) at t = 0 s is -2.999"));
+    }
+    BOOST_TEST(complaint_at(LateTable{.until = 1.0}, 1.0, Angle(1.0)) == "");
+    BOOST_TEST(mentions(complaint_at(LateTable{.until = 1.0, .off = 1e-3}, 1.0, Angle(1.0)),
+                        "prescribed[0]"));
+    talus::LagrangianSimulation sim(LateTable{}, Angle(1.0),
+                                    {.check_jacobians = talus::CheckJacobians::each_step});
+    BOOST_TEST(sim.run(0.01).certified());
+    // What is defined at one time alone has no derivative: the system says so itself.
+    BOOST_CHECK_THROW(talus::require_jacobians(LateTable{.until = 0.0}, 0.0, Angle(1.0)),
+                      std::out_of_range);
 }
 
 BOOST_AUTO_TEST_CASE(a_simulation_asks_at_its_start) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "lagrangian/systems.hpp"
 
@@ -19,7 +20,8 @@ namespace {
 /// A system that can be spoilt.
 struct Spoilt {
     static constexpr int dof = 2;
-    double a01 = 0.0, a10 = 0.0, a11 = 1.0, force0 = 0.0, gap = 1.0, row = 0.0, mu = 0.0;
+    double a01 = 0.0, a10 = 0.0, a11 = 1.0, force0 = 0.0, gap = 1.0, row = 0.0, mu = 0.0,
+           restitution = 0.0;
     double from = 0.0;  // spoilt from then on
     bool throws = false;
 
@@ -35,8 +37,10 @@ struct Spoilt {
         if (t >= from) f[0] += force0;
         if (t >= from && throws) throw std::runtime_error("no");
     }
-    void contacts(double t, const auto&, auto& contacts) const {
-        auto& c = contacts.add(t < from ? 1.0 : gap, PlaneLaw{{mu}}, "foot");
+    void contacts(double t, const auto& q, auto& contacts) const {
+        const PlaneLaw law = t < from ? PlaneLaw{} : PlaneLaw{{mu}, restitution, 0.0};
+        auto& c = contacts.add((t < from ? 1.0 : gap) + q[1], law, "foot");
+        c.rows(0, 1) = 1.0;
         if (t >= from) c.rows(1, 0) = row;
     }
 };
@@ -70,16 +74,21 @@ BOOST_AUTO_TEST_CASE(what_a_system_gives_is_looked_at) {
     must_complain({.force0 = nan}, "force[0] at t = 0 s is nan, but must be finite");
     must_complain({.gap = nan}, "gap of contact 0 (foot) at t = 0 s is nan, but must be finite");
     must_complain({.row = nan}, "tangential row 1[0] of contact 0 (foot) at t = 0 s is nan");
-    must_complain({.mu = -1.0}, "law of contact 0 (foot).mu is -1");
+    must_complain({.mu = -1.0},
+                  "Lagrangian system at t = 0 s: law of contact 0 (foot).mu is -1, but must be "
+                  "finite and not negative");
 }
 
 BOOST_AUTO_TEST_CASE(what_goes_wrong_within_a_step_leaves_the_state_as_it_was) {
-    Spoilt by_law{.from = 0.0105}, by_force = by_law, by_throw = by_law, by_gap = by_law;
-    by_law.a11 = -1.0;
+    Spoilt by_mass{.from = 0.0105}, by_force = by_mass, by_throw = by_mass, by_gap = by_mass,
+                                    by_law = by_mass;
+    by_mass.a11 = -1.0;
     by_force.force0 = nan;
     by_throw.throws = true;
     by_gap.gap = nan;
-    for (const Spoilt& system : {by_law, by_force, by_throw, by_gap}) {
+    by_law.gap = -1.0;
+    by_law.mu = -0.5;
+    for (const Spoilt& system : {by_mass, by_force, by_throw, by_gap, by_law}) {
         talus::LagrangianSimulation sim(system, Two(0.0, 0.0), {.h = 1e-3});
         BOOST_TEST(sim.run(0.01).certified());
         const Two q = sim.position(), u = sim.velocity();
@@ -91,6 +100,33 @@ BOOST_AUTO_TEST_CASE(what_goes_wrong_within_a_step_leaves_the_state_as_it_was) {
         BOOST_TEST(sim.step_count() == 10);
         BOOST_TEST((&sim.data() == data && data->q_end == q));
     }
+}
+
+BOOST_AUTO_TEST_CASE(laws_of_closed_contacts_are_looked_at_in_each_step) {
+    Spoilt by_mu{.gap = -1.0, .mu = -0.5, .from = 0.0102}, by_nan = by_mu, by_restitution = by_mu;
+    by_nan.mu = nan;
+    by_restitution.mu = 0.0;
+    by_restitution.restitution = 3.0;
+    const std::string item = "Lagrangian system at t = 0.0105 s: law of contact 0 (foot)";
+    for (const auto& [system, words] :
+         {std::pair{by_mu, ".mu is -0.5, but must be finite and not negative"},
+          std::pair{by_nan, ".mu is nan, but must be finite and not negative"},
+          std::pair{by_restitution, ".restitution_normal is 3, but must be in [0, 1]"}}) {
+        talus::LagrangianSimulation sim(system, Two(0.0, 0.0), {.h = 1e-3});
+        BOOST_TEST(sim.run(0.01).certified());
+        BOOST_TEST(complaint([&] { (void)sim.run(0.01); }) == item + words);
+        BOOST_TEST(sim.step_count() == 10);
+        // What is mended goes on with the bits of what was never bad.
+        sim.system() = {.gap = -1.0, .from = 0.0102};
+        talus::LagrangianSimulation good(sim.system(), Two(0.0, 0.0), {.h = 1e-3});
+        BOOST_TEST(sim.run(0.01).certified());
+        BOOST_TEST(good.run(0.02).certified());
+        BOOST_TEST((sim.position() == good.position() && sim.velocity() == good.velocity()));
+    }
+    // Of an open contact the law is no matter before it closes.
+    talus::LagrangianSimulation open(Spoilt{.gap = 1.0, .mu = -0.5, .from = 0.0102}, Two(0.0, 0.0),
+                                     {.h = 1e-3});
+    BOOST_TEST(open.run(0.02).certified());
 }
 
 BOOST_AUTO_TEST_CASE(states_and_settings) {
@@ -105,6 +141,10 @@ BOOST_AUTO_TEST_CASE(states_and_settings) {
               talus::LagrangianSimulation(Spoilt{}, Two(0.0, 0.0), {.contact_tolerance = -1.0});
           }),
           "contact tolerance is -1");
+    words(complaint([] {
+              talus::LagrangianSimulation(Spoilt{}, Two(0.0, 0.0), {.coordinate_scale = 0.0});
+          }),
+          "coordinate scale is 0, but must be finite and positive");
     const Eigen::VectorXd three = Eigen::VectorXd::Ones(3), two = Eigen::VectorXd::Ones(2);
     words(complaint([&] { talus::LagrangianSimulation(Stack{}, three, two); }),
           "number of velocities is 2, but must be that of coordinates, 3");

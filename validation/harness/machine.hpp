@@ -117,6 +117,8 @@ class Machine {
     const Data& step() {
         const Data& data = sound_ ? sound_->step() : faulty_->step();
         trial_.solved(data.report.residual, params_.solver.tolerance);
+        if (data.free_report.status != talus::FreeVelocityStatus::converged)
+            trial_.solved(data.free_report.error, 0.0);
         return data;
     }
     /// Makes the steps of a duration [s]; `on_step(const Data&)` may return false to stop.

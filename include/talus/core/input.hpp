@@ -57,12 +57,26 @@ inline double require_non_negative(std::string_view item, double value) {
         detail::reject(item, value, "finite and not negative");
     return value;
 }
+/// The same of a part (say ".mu") of an item. The two are put together only to be told: nothing is
+/// allocated for what is right.
+inline double require_non_negative(std::string_view item, std::string_view part, double value) {
+    if (!(std::isfinite(value) && value >= 0.0))
+        require_non_negative(std::string(item).append(part), value);
+    return value;
+}
 
 /// Returns `value`; throws input_error naming `item` unless it lies in [low, high].
 inline double require_in(std::string_view item, double value, double low, double high) {
     if (!(value >= low && value <= high))
         detail::reject(item, value,
                        "in [" + detail::text_of(low) + ", " + detail::text_of(high) + "]");
+    return value;
+}
+/// The same of a part of an item, as of require_non_negative.
+inline double require_in(std::string_view item, std::string_view part, double value, double low,
+                         double high) {
+    if (!(value >= low && value <= high))
+        require_in(std::string(item).append(part), value, low, high);
     return value;
 }
 

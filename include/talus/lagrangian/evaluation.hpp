@@ -56,12 +56,22 @@ class SystemEvaluation {
         }
         for (std::size_t k = 0; k < out.size(); ++k) require_valid(out[k], k, t, q.size());
     }
-    /// Whether the laws of contacts are valid. (Apart, as the texts it makes ask for memory.)
-    static void require_laws(const typename Types::Contacts& contacts) {
-        for (std::size_t k = 0; k < contacts.size(); ++k)
-            if constexpr (requires { contacts[k].law.require_valid(std::string_view{}); })
-                contacts[k].law.require_valid("law of " +
-                                              detail::contact_text(k, contacts[k].name));
+    /// Throws input_error naming time, contact, value and range unless the law of contact k, `c` at
+    /// time t, is valid. Its name is put together only to be told: this is asked in every step.
+    static void require_law(const typename Types::Contacts::Contact& c, std::size_t k, double t) {
+        if constexpr (requires { c.law.require_valid(std::string_view{}); }) {
+            try {
+                c.law.require_valid(std::string_view{});
+            } catch (const input_error&) {
+                c.law.require_valid(detail::at_time("Lagrangian system", t) + ": law of " +
+                                    detail::contact_text(k, c.name));
+                throw;
+            }
+        }
+    }
+    /// The same of all contacts, open ones too.
+    static void require_laws(const typename Types::Contacts& contacts, double t) {
+        for (std::size_t k = 0; k < contacts.size(); ++k) require_law(contacts[k], k, t);
     }
     /// The contacts by derivatives of their gaps.
     void derivatives(const System& system, double t, const Coordinates& q,

@@ -6,6 +6,7 @@
 #include <talus/core/room.hpp>
 #include <talus/lagrangian/evaluation.hpp>
 #include <talus/lagrangian/jacobian_check.hpp>
+#include <talus/lagrangian/state.hpp>
 #include <talus/lagrangian/step_data.hpp>
 #include <talus/lagrangian/step_params.hpp>
 #include <talus/lagrangian/velocity_forces.hpp>
@@ -40,8 +41,9 @@ class LagrangianMidpoint {
     using Data = LagrangianStepData<System>;
 
     /// Fills `data`, of which q_begin, begin and t_begin are given. Throws input_error on what the
-    /// system gives that is not as it must be, and lets pass what the system, a hook or the solver
-    /// throws; what is remembered is then as it was.
+    /// system gives that is not as it must be (matrices, forces, gaps, laws of closed contacts),
+    /// and lets pass what the system, a hook or the solver throws; what is remembered is then as it
+    /// was.
     template <AssembledSolver<rows, Law> Solver>
     void step(System& system, const LagrangianParams& params, Solver& solver, Data& data) {
         data.h = params.h;
@@ -68,6 +70,7 @@ class LagrangianMidpoint {
         data.q_end = data.q_mid + 0.5 * data.h * data.end;
         hooks_.finished(system, data);
         remember(data);
+        free_velocity_.remember(data);
     }
 
     /// Called between the stages (stepping/step_hooks.hpp): with the system and this data. In
@@ -76,7 +79,23 @@ class LagrangianMidpoint {
     Hooks& hooks() { return hooks_; }
 
     /// Makes the next step start without impulses of the last.
-    void forget() { memory_.clear(); }
+    void forget() {
+        memory_.clear();
+        free_velocity_.forget();
+    }
+    /// What it remembers: into a state, and, of one of the right rows, back.
+    void write_to(LagrangianState& state) const {
+        state.rows = rows;
+        for (const Vector<rows>& r : memory_)
+            state.impulse.insert(state.impulse.end(), r.data(), r.data() + rows);
+        state.largest_velocity = free_velocity_.largest();
+    }
+    void restore(const LagrangianState& state) {
+        memory_.resize(state.impulse.size() / static_cast<std::size_t>(rows));
+        for (std::size_t k = 0; k < state.impulse.size(); ++k)
+            memory_[k / rows][static_cast<int>(k % rows)] = state.impulse[k];
+        free_velocity_.forget(state.largest_velocity);
+    }
     /// Throws input_error unless the system's functions give what they must at (t, q), and, if
     /// asked, unless its Jacobians are those of its gaps.
     void require_valid(const System& system, const LagrangianParams& params, double t,
@@ -86,8 +105,9 @@ class LagrangianMidpoint {
         data.factor.factor(data.mass, t);
         evaluation_.force(system, t, q, u, data.force);
         evaluation_.contacts(system, t, q, data.contacts);
-        evaluation_.require_laws(data.contacts);
-        if (params.check_jacobians != CheckJacobians::never) check_.require(system, t, q);
+        evaluation_.require_laws(data.contacts, t);
+        if (params.check_jacobians != CheckJacobians::never)
+            check_.require(system, t, q, params.coordinate_scale);
     }
 
   private:
@@ -95,7 +115,7 @@ class LagrangianMidpoint {
         evaluation_.mass(system, data.t_mid, data.q_mid, data.mass);
         evaluation_.contacts(system, data.t_mid, data.q_mid, data.contacts);
         if (params.check_jacobians == CheckJacobians::each_step)
-            check_.require(system, data.t_mid, data.q_mid);
+            check_.require(system, data.t_mid, data.q_mid, params.coordinate_scale);
         data.closed.clear();
         for (std::size_t k = 0; k < data.contacts.size(); ++k)
             if (data.contacts[k].gap <= params.contact_tolerance) data.closed.push_back(k);
@@ -110,6 +130,7 @@ class LagrangianMidpoint {
         for (std::size_t c = 0; c < n; ++c) {
             const std::size_t place = data.closed[c];
             const auto& contact = data.contacts[place];
+            evaluation_.require_law(contact, place, data.t_mid);
             mobility_[c] = contact.rows.transpose();
             data.factor.forward(mobility_[c]);
             Vector<rows> u = contact.relative_velocity(data.free);

@@ -5,6 +5,7 @@
 #include <talus/core/observer.hpp>
 #include <talus/lagrangian/concepts.hpp>
 #include <talus/lagrangian/midpoint_step.hpp>
+#include <talus/lagrangian/state.hpp>
 #include <talus/lagrangian/step_data.hpp>
 #include <talus/lagrangian/step_params.hpp>
 #include <talus/lagrangian/summary.hpp>
@@ -125,6 +126,43 @@ class LagrangianSimulation {
         return summary;
     }
 
+    /// All that the next step depends on apart from system, settings and solver: to go back to, to
+    /// try from, or to write down (NumberRecord).
+    LagrangianState state() const {
+        LagrangianState state;
+        state.q.assign(q_.data(), q_.data() + q_.size());
+        state.u.assign(u_.data(), u_.data() + u_.size());
+        state.h = params_.h;
+        state.time_start = time_start_;
+        state.step_count = step_count_;
+        midpoint_.write_to(state);
+        return state;
+    }
+    /// Puts a state in place of what there is; the run that follows makes the same bits as the one
+    /// that the state was taken from. Throws input_error, and changes nothing, if it is of another
+    /// step size, of other numbers of coordinates or rows, or not as a state must be; the system is
+    /// not asked before the next step. `data()` is then of no step.
+    void restore(const LagrangianState& state) {
+        state.require_valid();
+        if (state.h != params_.h)
+            detail::reject("step size h of the state", state.h,
+                           "that of the simulation, " + detail::text_of(params_.h));
+        require_count("coordinates of the state", state.q.size(), "the simulation",
+                      static_cast<std::size_t>(q_.size()));
+        require_count("rows of the state", static_cast<std::size_t>(state.rows), "the system",
+                      static_cast<std::size_t>(Types::rows));
+        Data none;
+        midpoint_.restore(state);  // asks for memory before it changes anything
+        for (Eigen::Index i = 0; i < q_.size(); ++i) {
+            q_[i] = state.q[static_cast<std::size_t>(i)];
+            u_[i] = state.u[static_cast<std::size_t>(i)];
+        }
+        time_start_ = state.time_start;
+        step_count_ = state.step_count;
+        time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
+        data_ = std::move(none);
+    }
+
     const Coordinates& position() const { return q_; }  ///< q
     const Coordinates& velocity() const { return u_; }  ///< u = dq/dt
     double time() const { return time_; }               ///< [s]
@@ -134,7 +172,7 @@ class LagrangianSimulation {
     const System& system() const { return system_; }
     Solver& solver() { return solver_; }
     const Solver& solver() const { return solver_; }
-    /// Of the last step; without contacts before the first one.
+    /// Of the last step; without contacts before the first one, and after `restore`.
     const Data& data() const { return data_; }
     /// Called between the stages of a step (LagrangianMidpoint::hooks).
     Hooks& hooks() { return midpoint_.hooks(); }

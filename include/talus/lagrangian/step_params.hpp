@@ -12,7 +12,9 @@ enum class VelocityForces {
     explicit_begin,
     /// The mean of u_begin and of the velocity that the step would end with without contacts. Such
     /// a free step is its own mirror in time, so it is of order 2 for any A(t, q) and F(t, q, u).
-    /// Costs n + 3 or so more calls of `force`.
+    /// Costs n + 3 or so more calls of `force`. It is found to the rounding of F, also as the
+    /// system comes to rest; where it is not found, LagrangianStepData::free_report says so, and
+    /// the run is not certified.
     implicit_midpoint,
 };
 
@@ -31,11 +33,15 @@ struct LagrangianParams {
     double contact_tolerance = 0.0;
     VelocityForces velocity_forces = VelocityForces::explicit_begin;
     CheckJacobians check_jacobians = CheckJacobians::at_start;
+    /// By what coordinates change as the system moves: what the widths of differences are taken of,
+    /// where Jacobians are checked by them. Need not be known well.
+    double coordinate_scale = 1.0;
 
-    /// Throws input_error unless h is positive and the tolerance not negative.
+    /// Throws input_error unless h is and the scale are positive and the tolerance not negative.
     void require_valid() const {
         require_positive("step size h", h);
         require_non_negative("contact tolerance", contact_tolerance);
+        require_positive("coordinate scale", coordinate_scale);
     }
 };
 

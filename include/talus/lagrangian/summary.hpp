@@ -3,6 +3,7 @@
 
 #include <talus/core/input.hpp>
 #include <talus/lagrangian/contact_list.hpp>
+#include <talus/lagrangian/step_data.hpp>
 #include <talus/solver/report.hpp>
 
 #include <cmath>
@@ -26,9 +27,12 @@ struct LagrangianSummary {
 
     std::int64_t steps = 0;
     std::int64_t missed = 0;  ///< steps whose solver did not converge
-    Worst residual;           ///< of SolveReport [-]
-    Worst contact_error;      ///< of SolveReport: at the worst contact, in its own scale [-]
-    Worst velocity_error;     ///< largest velocity by which a contact violated its law [m/s]
+    /// Steps whose free velocity was not found (VelocityForces::implicit_midpoint).
+    std::int64_t missed_free = 0;
+    Worst free_error;      ///< of FreeVelocityReport, of those [-]
+    Worst residual;        ///< of SolveReport [-]
+    Worst contact_error;   ///< of SolveReport: at the worst contact, in its own scale [-]
+    Worst velocity_error;  ///< largest velocity by which a contact violated its law [m/s]
     /// The sum over all steps of h times the worst velocity error [m]: no overlap has grown by more
     /// than some 2 of it for want of accuracy (RunSummary::drift).
     double drift = 0.0;
@@ -37,8 +41,8 @@ struct LagrangianSummary {
     Worst overlap;
     bool stopped = false;  ///< by the observer
 
-    /// Every step converged. (Look at `overlap` too.)
-    bool certified() const { return missed == 0; }
+    /// Every step converged, and found its free velocity. (Look at `overlap` too.)
+    bool certified() const { return missed == 0 && missed_free == 0; }
 
     /// Notes a step: a LagrangianStepData.
     template <class Data>
@@ -46,6 +50,10 @@ struct LagrangianSummary {
         ++steps;
         const SolveReport& report = data.report;
         if (report.status != SolveStatus::converged) ++missed;
+        if (data.free_report.status != FreeVelocityStatus::converged) {
+            ++missed_free;
+            note(free_error, data.free_report.error, data, no_contact);
+        }
         note(residual, report.residual, data, report.worst_contact);
         note(contact_error, report.contact_error, data, report.worst_contact);
         note(velocity_error, report.velocity_error, data, report.fastest_contact);
@@ -58,9 +66,11 @@ struct LagrangianSummary {
     void add(const LagrangianSummary& later) {
         steps += later.steps;
         missed += later.missed;
+        missed_free += later.missed_free;
         drift += later.drift;
         stopped = later.stopped;
-        for (const auto worst : {&LagrangianSummary::residual, &LagrangianSummary::contact_error,
+        for (const auto worst : {&LagrangianSummary::free_error, &LagrangianSummary::residual,
+                                 &LagrangianSummary::contact_error,
                                  &LagrangianSummary::velocity_error, &LagrangianSummary::overlap}) {
             const Worst& other = later.*worst;
             if (other.value > (this->*worst).value || std::isnan(other.value)) this->*worst = other;
@@ -88,6 +98,9 @@ inline std::string to_string(const LagrangianSummary& run) {
     std::string text = (run.certified() ? "certified: " : "not certified: ") +
                        std::to_string(run.steps) + " steps, " + std::to_string(run.missed) +
                        " missed the tolerance";
+    if (run.missed_free > 0)
+        text += ", " + std::to_string(run.missed_free) +
+                " did not find their free velocity (last change of it " + at(run.free_error) + ")";
     if (run.residual.value > 0.0)
         text += "; worst residual " + detail::text_of(run.residual.value) + ", worst contact " +
                 at(run.contact_error);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <talus/core/input.hpp>
 #include <talus/lagrangian/evaluation.hpp>
 #include <talus/lagrangian/step_data.hpp>
 #include <talus/lagrangian/step_params.hpp>
@@ -11,10 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace talus {
 
-/// u_free = u_begin + h A^-1 F, with F at the velocity that is asked for. Keeps its memory.
+/// u_free = u_begin + h A^-1 F, with F at the velocity that is asked for. Keeps its memory, and
+/// the largest velocity of the run: what rounding leaves of it is no velocity.
 template <LagrangianSystem System>
 class FreeVelocity {
   public:
@@ -22,32 +23,68 @@ class FreeVelocity {
     using Coordinates = typename Types::Coordinates;
     using Data = LagrangianStepData<System>;
 
-    /// Fills `data.force` and `data.free` from what is before them in `data`. Throws input_error on
-    /// forces that are not finite, and if no velocity is found (implicit_midpoint, where h times
-    /// the derivative of A^-1 F by u is large and changes much within the step).
+    /// Fills `data.force`, `data.free` and `data.free_report` from what is before them in `data`.
+    /// Where the velocity of implicit_midpoint is not found (h times the derivative of A^-1 F by u
+    /// is large and changes much within the step) the report says so, and the velocity is the best
+    /// that was met. Throws input_error on forces that are not finite.
     void compute(const SystemEvaluation<System>& evaluation, const System& system,
                  VelocityForces kind, Data& data) {
         evaluation.force(system, data.t_mid, data.q_mid, data.begin, data.force);
         change_ = data.h * data.force;
         data.factor.solve(change_);
         data.free = data.begin + change_;
+        data.free_report = {};
         if (kind == VelocityForces::explicit_begin) return;
-        const bool depends = differentiate(evaluation, system, data);
-        if (depends) iterate(evaluation, system, data);
+        measure(data);
+        const bool depends = differentiate(evaluation, system, data, data.begin);
+        if (!depends) {  // at u = 0 what is quadratic in u has no slope: at u_free it shows
+            evaluation.force(system, data.t_mid, data.q_mid, data.free, force_);
+            if (force_ == data.force) return;
+        }
+        iterate(evaluation, system, data);
     }
 
+    /// The largest velocity of the run so far, sqrt(u^T A u) [sqrt(J)]: of free velocities that
+    /// were found by implicit_midpoint, and of those that their steps began with.
+    double largest() const { return largest_; }
+    /// Notes that of a step that has come to its end.
+    void remember(const Data& data) {
+        if (data.free_report.iterations == 0 ||
+            data.free_report.status != FreeVelocityStatus::converged)
+            return;
+        largest_ = std::max({largest_, data.factor.norm(data.begin), data.factor.norm(data.free)});
+    }
+    /// Begins a run, or goes on with one whose largest velocity is known.
+    void forget(double largest = 0.0) { largest_ = largest; }
+
   private:
-    /// A - (h/2) dF/du at u_begin, by differences. Whether F depends on u.
+    /// The sizes of this step by which differences and rounding are judged, none of which vanishes
+    /// as the system comes to rest.
+    void measure(const Data& data) {
+        scale_ = std::max(largest_, data.factor.norm(data.begin));
+        reach_ = std::max(scale_, data.factor.norm(data.free));
+        // Velocities that change no digit of q in a step. What q leaves in F by rounding is not
+        // larger, where the step is short enough for the stiffness of F.
+        resolution_ = data.factor.norm(data.q_mid) / data.h;
+    }
+    /// A - (h/2) dF/du at a velocity, by differences; F there is `data.force`. Whether F depends
+    /// on u.
     bool differentiate(const SystemEvaluation<System>& evaluation, const System& system,
-                       const Data& data) {
-        constexpr double relative = 1e-6;
+                       const Data& data, const Coordinates& at) {
+        constexpr double relative = 1e-6, of_scale = 1e-9, of_resolution = 1e-11, least = 1e-150;
         const Eigen::Index n = data.begin.size();
         matrix_ = data.mass;
         bool depends = false;
         for (Eigen::Index j = 0; j < n; ++j) {
-            const double size = std::max(std::abs(data.begin[j]), std::abs(data.free[j]));
-            const double delta = relative * (size > 0.0 ? size : 1.0);
-            moved_ = data.begin;
+            // Energies as velocities of this coordinate.
+            const double unit = 1.0 / std::sqrt(data.mass(j, j));
+            const double free = std::abs(data.free[j]);
+            const double size =
+                std::max(std::abs(at[j]), scale_ > 0.0 ? std::min(free, scale_ * unit) : free);
+            double delta = std::max(
+                {relative * size, of_scale * scale_ * unit, of_resolution * resolution_ * unit});
+            if (!(delta > least)) delta = relative;
+            moved_ = at;
             moved_[j] += delta;
             evaluation.force(system, data.t_mid, data.q_mid, moved_, force_);
             for (Eigen::Index i = 0; i < n; ++i) {
@@ -56,35 +93,72 @@ class FreeVelocity {
                 matrix_(i, j) -= 0.5 * data.h * slope;
             }
         }
-        // At u = 0 what is quadratic in u has no slope: at u_free it shows.
-        evaluation.force(system, data.t_mid, data.q_mid, data.free, force_);
-        return depends || force_ != data.force;
+        return depends;
     }
-    /// Newton's method with that matrix, to rounding.
+    /// Newton's method with that matrix, to rounding; the matrix is made again where it is too far
+    /// from what it should be. F at u_begin is `data.force`.
     void iterate(const SystemEvaluation<System>& evaluation, const System& system, Data& data) {
-        constexpr int most = 60;
-        constexpr double done = 1e-15, rounding = 1e-12;
+        constexpr int most = 100, most_matrices = 10;
+        constexpr double done = 1e-15, run_away = 1e6;
+        FreeVelocityReport& report = data.free_report;
+        report.status = FreeVelocityStatus::iteration_limit;
         lu_.compute(matrix_);
-        double last = 0.0, share = 0.0;
-        for (int k = 0; k < most; ++k) {
-            moved_ = 0.5 * (data.begin + data.free);
-            evaluation.force(system, data.t_mid, data.q_mid, moved_, data.force);
-            change_ = data.free - data.begin;
-            residual_.noalias() = data.h * data.force;
-            residual_.noalias() -= data.mass.lazyProduct(change_);
+        residual_ = data.h * data.force;
+        best_ = data.free;  // the paper's
+        data.free = data.begin;
+        double last = 0.0, least = std::numeric_limits<double>::infinity(), size = reach_;
+        for (int matrices = 1; report.iterations < most;) {
             change_ = lu_.solve(residual_);
+            const double change = data.factor.norm(change_);
+            ++report.iterations;
+            if (!(change <= run_away * reach_)) {
+                report.status = FreeVelocityStatus::diverged;
+                break;
+            }
             data.free += change_;
-            share = data.factor.norm(change_) /
-                    std::max(data.factor.norm(data.begin), data.factor.norm(data.free));
-            if (!(share > done) || (k > 0 && share <= rounding && share >= 0.5 * last)) return;
-            last = share;
+            size = std::max(scale_, data.factor.norm(data.free));
+            if (change < least) {
+                least = change;
+                best_ = data.free;
+            }
+            const double own = std::max(data.factor.norm(data.begin), data.factor.norm(data.free));
+            const bool stands = report.iterations > 1 && change >= 0.5 * last;
+            last = change;
+            middle_ = 0.5 * (data.begin + data.free);
+            evaluation.force(system, data.t_mid, data.q_mid, middle_, data.force);
+            if (change <= done * own || (stands && is_rounding(change, size, matrices))) {
+                report.status = FreeVelocityStatus::converged;
+                break;
+            }
+            if (stands && matrices < most_matrices) {
+                differentiate(evaluation, system, data, middle_);
+                lu_.compute(matrix_);
+                ++matrices;
+                last = std::numeric_limits<double>::infinity();
+            }
+            moved_ = data.free - data.begin;
+            residual_.noalias() = data.h * data.force;
+            residual_.noalias() -= data.mass.lazyProduct(moved_);
         }
-        detail::reject(
-            detail::at_time("change of the free velocity in the last iteration", data.t_mid), share,
-            "below 1e-12 of it, as it is with a smaller h");
+        report.error = size > 0.0 ? last / size : 0.0;
+        if (report.status == FreeVelocityStatus::converged) return;
+        report.error = std::min(least, reach_) / reach_;
+        data.free = best_;
+        middle_ = 0.5 * (data.begin + data.free);
+        evaluation.force(system, data.t_mid, data.q_mid, middle_, data.force);
     }
 
-    Coordinates moved_, force_, change_, residual_;
+    /// Whether a change that no longer shrinks is what rounding leaves, beside velocities of that
+    /// size. Forces that cancel (springs under tension) leave more than their sum tells: with new
+    /// derivatives at the velocity itself it is not they that are wrong.
+    bool is_rounding(double change, double size, int matrices) const {
+        constexpr double of_resolution = 1e-14, of_scale = 1e-12, of_cancelling = 1e-9;
+        const double part = matrices > 2 ? of_cancelling : of_scale;
+        return change <= std::max(part * size, of_resolution * resolution_);
+    }
+
+    double largest_ = 0.0, scale_ = 0.0, reach_ = 0.0, resolution_ = 0.0;
+    Coordinates moved_, middle_, best_, force_, change_, residual_;
     typename Types::MassMatrix matrix_;
     Eigen::PartialPivLU<typename Types::MassMatrix> lu_;
 };

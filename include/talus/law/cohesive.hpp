@@ -6,7 +6,6 @@
 #include <talus/law/coulomb.hpp>
 #include <talus/law/prepared.hpp>
 
-#include <string>
 #include <string_view>
 
 namespace talus {
@@ -59,8 +58,7 @@ struct Cohesive {
     }
     /// Throws input_error naming `item` unless c is finite and not negative and `law` is valid.
     void require_valid(std::string_view item) const {
-        const std::string name(item);
-        require_non_negative(name + ".cohesion", cohesion);
+        require_non_negative(item, ".cohesion", cohesion);
         if constexpr (requires { law.require_valid(item); }) law.require_valid(item);
     }
 

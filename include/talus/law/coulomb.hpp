@@ -7,7 +7,6 @@
 #include <talus/law/coulomb_block.hpp>
 #include <talus/law/friction_cone.hpp>
 
-#include <string>
 #include <string_view>
 
 namespace talus {
@@ -41,9 +40,7 @@ struct Coulomb {
     }
     FrictionCone<Dim> friction_cone() const { return {mu}; }
     /// Throws input_error naming `item` unless mu is finite and not negative.
-    void require_valid(std::string_view item) const {
-        require_non_negative(std::string(item) + ".mu", mu);
-    }
+    void require_valid(std::string_view item) const { require_non_negative(item, ".mu", mu); }
 };
 TALUS_MODEL(PreparableLaw<Coulomb<2>, 2>);
 TALUS_MODEL(PreparableLaw<Coulomb<3>, 3>);

@@ -7,7 +7,6 @@
 #include <talus/law/rolling_block.hpp>
 #include <talus/law/rolling_cone.hpp>
 
-#include <string>
 #include <string_view>
 
 namespace talus {
@@ -61,8 +60,8 @@ struct RollingCoulomb {
     }
     /// Throws input_error naming `item` unless mu and mu_r are finite and not negative.
     void require_valid(std::string_view item) const {
-        require_non_negative(std::string(item) + ".mu", mu);
-        require_non_negative(std::string(item) + ".mu_r", mu_r);
+        require_non_negative(item, ".mu", mu);
+        require_non_negative(item, ".mu_r", mu_r);
     }
 };
 TALUS_MODEL(PreparableLaw<RollingCoulomb<3>, 3>);

@@ -6,7 +6,6 @@
 #include <talus/law/prepared.hpp>
 
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace talus {
@@ -55,9 +54,8 @@ struct WeightedMean {
     auto friction_cone() const requires SpaceDimension<Rows> { return cone_of<Rows>(law); }
     /// Throws input_error naming `item` unless both restitutions lie in [0, 1] and `law` is valid.
     void require_valid(std::string_view item) const {
-        const std::string name(item);
-        require_in(name + ".restitution_normal", restitution_normal, 0.0, 1.0);
-        require_in(name + ".restitution_tangential", restitution_tangential, 0.0, 1.0);
+        require_in(item, ".restitution_normal", restitution_normal, 0.0, 1.0);
+        require_in(item, ".restitution_tangential", restitution_tangential, 0.0, 1.0);
         if constexpr (requires { law.require_valid(item); }) law.require_valid(item);
     }
 };
