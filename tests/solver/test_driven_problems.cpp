@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(all_solvers_find_the_same_velocities, D, dimension
         const auto handed = velocities<Dim>(p, talus::Automatic<Dim, Law<Dim>>({
                                                    .tolerance = tolerance,
                                                }));
-        // By itself it gets no nearer than some 1e-9 in space.
+        // By itself it does not get to 1e-11 in space.
         const auto inner =
             velocities<Dim>(p, talus::InteriorPoint<Dim, Law<Dim>>({.tolerance = 1e-8}));
         for (std::size_t c = 0; c < swept.size(); ++c) {
