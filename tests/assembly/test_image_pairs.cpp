@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/dimensions.hpp"
@@ -246,6 +247,43 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(walls_have_no_images, D, dimensions) {
     BOOST_TEST(walls == 4u);
     // -57.2, 12.95 and 1e6 are images of 0.8, 0.95 and 1: each of the three touches the others.
     BOOST_TEST(found.count() == 7u);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_ends_on_one_side_meets_bodies_where_they_are, D, dimensions) {
+    // A half-infinite box of a shape of one's own, whose image at home is far from the body.
+    constexpr int Dim = D::value;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using Box = talus::Aabb<Dim>;
+    using V = talus::Vector<Dim>;
+    const auto at = [](double x) {
+        const V centre = x * V::Unit(0) + V::Constant(0.4);
+        return Box{V(centre - V::Constant(0.1)), V(centre + V::Constant(0.1))};
+    };
+    Box half{V::Constant(-infinity), V::Constant(infinity)};
+    half.low[0] = 5.0;
+    const std::vector<Box> boxes{at(7.3), half, at(0.2), at(-6.5),
+                                 Box{V::Constant(-infinity), V::Constant(infinity)}};
+    std::vector<bool> is_free{true, false, true, true, false};
+    talus::BruteForce<Dim> broad;
+    talus::ImagePairs<Dim> pairs;
+    talus::Column<talus::CandidatePair> found;
+    talus::Column<talus::ImageShift> images;
+    const auto cell = talus::PeriodicCell<Dim>::box(V::Ones());
+    pairs.find(talus::PairSearch<Dim>(broad), cell, boxes, is_free, found, images);
+    std::vector<std::pair<int, int>> with_unbounded;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        if (found[k].b != 1 && found[k].a != 1 && found[k].b != 4) continue;
+        with_unbounded.emplace_back(found[k].a, found[k].b);
+        BOOST_TEST(images[k].is_zero());
+    }
+    const std::vector<std::pair<int, int>> expected{{0, 1}, {0, 4}, {2, 4}, {3, 4}};
+    BOOST_TEST((with_unbounded == expected));
+    // Two that are not bounded are a pair if one is free.
+    is_free[4] = true;
+    pairs.find(talus::PairSearch<Dim>(broad), cell, boxes, is_free, found, images);
+    BOOST_TEST(std::count_if(found.begin(), found.end(), [](const talus::CandidatePair& pair) {
+                   return pair.a == 1 && pair.b == 4;
+               }) == 1);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -45,7 +45,22 @@ Eigen::MatrixXd dense_delassus(const talus::ContactJacobian<Dim>& jacobian,
         side(jacobian.a[c], jacobian.arm_a[c], 1.0);
         side(jacobian.b[c], jacobian.arm_b[c], -1.0);
     }
-    return h * m * h.transpose();
+    if (jacobian.cell_lever.empty()) return h * m * h.transpose();
+    // The components of the velocity gradient, column by column.
+    Eigen::MatrixXd cell = Eigen::MatrixXd::Zero(contacts * Dim, Dim * Dim);
+    Eigen::VectorXd mobility(Dim * Dim);
+    for (int j = 0; j < Dim; ++j)
+        for (int i = 0; i < Dim; ++i) {
+            mobility[Dim * j + i] = inverse_mass.cell(i, j);
+            for (Eigen::Index c = 0; c < contacts; ++c) {
+                const auto k = static_cast<std::size_t>(c);
+                talus::Matrix<Dim> rate = talus::Matrix<Dim>::Zero();
+                rate(i, j) = 1.0;
+                cell.block<Dim, 1>(c * Dim, Dim * j + i) =
+                    -1.0 * (jacobian.frame[k] * (rate * jacobian.cell_lever[k]));
+            }
+        }
+    return h * m * h.transpose() + cell * mobility.asDiagonal() * cell.transpose();
 }
 
 /// Properties of every SweepableDelassus of `n` contacts, against the dense matrix.

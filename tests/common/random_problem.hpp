@@ -21,6 +21,7 @@ struct RandomProblem {
     double arm = 0.3;             ///< length of the lever arms [m]
     bool scalar_inertia = false;  ///< as balls
     bool guided = false;          ///< some axes are locked
+    bool driven = false;          ///< a stress drives some components of a cell
 
     Problem make(RandomBlocks& random, const Law& law) const {
         Problem p;
@@ -46,10 +47,20 @@ struct RandomProblem {
             p.free_velocity.push_back(random.normal<Dim>());
             p.laws.push_back(law);
         }
+        if (driven) drive(p, random);
         return p;
     }
 
   private:
+    /// Of any two components (i, j), (j, i) one has the other mass; some contacts have no lever.
+    static void drive(Problem& p, RandomBlocks& random) {
+        for (int i = 0; i < Dim; ++i)
+            for (int j = 0; j < Dim; ++j)
+                if (i != 1 || j != 0) p.inverse_mass.cell(i, j) = random.log_uniform(0.1, 10.0);
+        for (std::size_t c = 0; c < p.jacobian.contact_count(); ++c)
+            p.jacobian.cell_lever.push_back(
+                c % 3 == 2 ? talus::Vector<Dim>(talus::Vector<Dim>::Zero()) : random.normal<Dim>());
+    }
     talus::AngularMatrix<Dim> inverse_inertia(RandomBlocks& random) const {
         constexpr int n = talus::rotation_dof<Dim>;
         if (scalar_inertia) return 2.5 * talus::AngularMatrix<Dim>::Identity();

@@ -437,4 +437,16 @@ BOOST_AUTO_TEST_CASE(words_of_any_length_are_read) {
     BOOST_TEST(info.description == "");
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_driven_cell_has_no_room_in_a_file, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(77);
+    const auto p = Rigid<dim>{.driven = true}.make(random, {.mu = 0.5});
+    const auto is_refusal = [](const talus::input_error& error) {
+        return std::string(error.what()) ==
+               "periodic cell is driven by a stress, but must be imposed: a problem file has no "
+               "room for it";
+    };
+    BOOST_CHECK_EXCEPTION(talus::global_form<dim>(p), talus::input_error, is_refusal);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -115,6 +115,20 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(square_of_the_map_is_the_delassus_matrix, D, dimen
     }
 }
 
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_driven_cell_has_a_row_for_each_component, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(123);
+    for (int k = 0; k < 10; ++k) {
+        const auto p =
+            RandomProblem<dim, talus::Coulomb<dim>>{
+                .bodies = 4 + k, .contacts = 3 + 2 * k, .guided = k % 2 == 1, .driven = true}
+                .make(random, {0.5});
+        const talus::BodyMap<dim> map(p.jacobian, p.inverse_mass);
+        check_map<dim>(map, dense_delassus<dim>(p.jacobian, p.inverse_mass), random);
+        BOOST_TEST(map.body_sizes().back() == dim * dim - 1);
+    }
+}
+
 BOOST_AUTO_TEST_CASE_TEMPLATE(what_cannot_move_has_no_rows, D, dimensions) {
     constexpr int dim = D::value;
     RandomBlocks random(122);

@@ -3,6 +3,11 @@
 #include <talus/problem/delassus_product.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "common/delassus_tester.hpp"
 #include "common/dimensions.hpp"
 #include "common/random_problem.hpp"
@@ -22,6 +27,51 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(operators_equal_the_dense_matrix, D, dimensions) {
         talus::DelassusSparse<dim> sparse(p.jacobian, p.inverse_mass);
         test_delassus<dim>(sparse, dense, random);
     }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_driven_cell_is_one_more_body, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(34);
+    for (int k = 0; k < 10; ++k) {
+        const RandomProblem<dim, talus::Coulomb<dim>> kind{
+            .bodies = 3 + k, .contacts = 1 + 2 * k, .guided = k % 2 == 1, .driven = true};
+        const auto p = kind.make(random, {.mu = 0.5});
+        talus::DelassusProduct<dim> product(p.jacobian, p.inverse_mass);
+        test_delassus<dim>(product, dense_delassus<dim>(p.jacobian, p.inverse_mass), random);
+        const auto is_refusal = [](const talus::input_error& error) {
+            return std::string(error.what()) ==
+                   "periodic cell is driven by a stress, but must be imposed: W assembled has no "
+                   "room for it";
+        };
+        BOOST_CHECK_EXCEPTION((talus::DelassusSparse<dim>(p.jacobian, p.inverse_mass)),
+                              talus::input_error, is_refusal);
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_driven_cell_connects_what_pushes_it, D, dimensions) {
+    constexpr int dim = D::value;
+    RandomBlocks random(35);
+    // Contacts of: two that do not move, with a lever; a free one and an obstacle, with a lever;
+    // the same without; two that do not move, without; another free one, with a lever.
+    const RandomProblem<dim, talus::Coulomb<dim>> kind{.bodies = 6, .contacts = 5, .driven = true};
+    auto p = kind.make(random, {.mu = 0.5});
+    for (const std::size_t still : {0u, 1u, 5u}) {
+        p.inverse_mass.linear[still] = 0.0;
+        p.inverse_mass.angular[still].setZero();
+    }
+    const talus::BodyIndex a[] = {0, 2, 3, 0, 4}, b[] = {1, 5, 5, 1, 5};
+    for (std::size_t c = 0; c < 5; ++c) {
+        p.jacobian.a[c] = a[c];
+        p.jacobian.b[c] = b[c];
+        p.jacobian.cell_lever[c] = c == 2 || c == 3
+                                       ? talus::Vector<dim>(talus::Vector<dim>::Zero())
+                                       : talus::Vector<dim>(talus::Vector<dim>::Ones());
+    }
+    const talus::DelassusProduct<dim> w(p.jacobian, p.inverse_mass);
+    std::vector<std::uint32_t> label(5);
+    w.islands(label);
+    const std::vector<std::uint32_t> expected{0, 0, 2, 3, 0};
+    BOOST_TEST(label == expected, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(scalar_inertia_kernel_equals_the_plain_one, D, dimensions) {

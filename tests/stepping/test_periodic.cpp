@@ -5,7 +5,6 @@
 #include <talus/geometry/box.hpp>
 #include <talus/geometry/half_space.hpp>
 #include <talus/measure/energy_ledger.hpp>
-#include <talus/measure/momentum.hpp>
 #include <talus/measure/stress.hpp>
 #include <talus/stepping/simulation.hpp>
 #include <talus/stepping/step_queries.hpp>
@@ -176,44 +175,55 @@ Sim<Dim> sheared_gas(talus::Scheme scheme, bool backwards = false) {
     return sim;
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(books_close_and_momentum_stays, D, dimensions) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(books_close_and_contacts_keep_momentum, D, dimensions) {
     constexpr int Dim = D::value;
     for (const auto scheme : {talus::Scheme::midpoint, talus::Scheme::gap_anticipating}) {
         auto sim = sheared_gas<Dim>(scheme);
         talus::EnergyLedger<Dim> books(sim.system().bodies, sim.system().gravity);
-        const V<Dim> before = talus::momentum(sim.system().bodies).linear;
-        double largest = 0.0;
         std::size_t pushes = 0;
         for (int step = 0; step < 1000; ++step) {
             const double work_before = books.flows().cell;
             const talus::Bodies<Dim> begin = sim.system().bodies;
+            const Cell<Dim> before = *sim.system().cell();
             const auto& data = sim.step();
             books.record(data, sim.system().bodies);
             for (const auto& r : data.impulse) pushes += r.norm() > 0.0 ? 1u : 0u;
+            double momentum_scale = 0.0;
             for (std::size_t i = 0; i < begin.count(); ++i)
-                largest += begin.mass(i) * begin.velocity[i].norm() / 1000.0;
+                momentum_scale += begin.mass(i) * begin.velocity[i].norm();
             // Levers of what is foreseen to slide end where it will meet.
             if (scheme == talus::Scheme::gap_anticipating) continue;
-            // V sigma : L dt, and what the bodies' accelerations take of it.
+            // Contacts leave momentum as it is; away from home the cell carries bodies along.
+            V<Dim> gained = V<Dim>::Zero();
+            for (std::size_t i = 0; i < begin.count(); ++i)
+                gained += begin.mass(i) * (data.end[i].linear - data.begin[i].linear);
+            BOOST_TEST(gained.norm() < 1e-14 * momentum_scale);
+            // V sigma : L dt, what the bodies' accelerations take of it, and what carries them.
             std::vector<V<Dim>> forces;
             talus::contact_forces<Dim>(data.problem.jacobian, data.impulse, data.h, forces);
             const M<Dim> stress = talus::cell_stress<Dim>(data.problem.jacobian, forces,
                                                           sim.system().bodies, *data.cell);
             double work =
                 data.h * data.cell->volume() * (stress * data.cell->velocity_gradient()).trace();
+            const auto& bodies = sim.system().bodies;
             for (std::size_t i = 0; i < begin.count(); ++i) {
-                const V<Dim> mid = begin.position[i] + 0.5 * data.h * begin.velocity[i];
+                const V<Dim> s = data.from_home[i];
+                const V<Dim> own = data.begin[i].linear - data.cell->velocity_at(s);
+                const V<Dim> mid =
+                    begin.position[i] + 0.5 * data.h * own + (s - before.offset(data.home[i]));
                 work +=
                     begin.mass(i) *
                     (data.end[i].linear - data.begin[i].linear).dot(data.cell->velocity_at(mid));
+                work += 0.5 * begin.mass(i) *
+                        (bodies.velocity[i].squaredNorm() - data.end[i].linear.squaredNorm() +
+                         data.begin[i].linear.squaredNorm() - begin.velocity[i].squaredNorm());
             }
             BOOST_TEST(std::abs(books.flows().cell - work_before - work) <
                        1e-11 * books.kinetic_start());
         }
-        BOOST_TEST(pushes > 20u);
+        BOOST_TEST(pushes > 10u);
         BOOST_TEST(std::abs(books.flows().cell) > 1e-3 * books.kinetic_start());
         BOOST_TEST(books.closure() < 1e-12);
-        BOOST_TEST((talus::momentum(sim.system().bodies).linear - before).norm() < 1e-12 * largest);
         const auto again = talus::from_record<talus::EnergyLedger<Dim>>(talus::record_of(books));
         BOOST_TEST(again.flows().cell == books.flows().cell);
         talus::NumberRecord older = talus::record_of(books);

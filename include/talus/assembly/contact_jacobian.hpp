@@ -3,9 +3,11 @@
 
 #include <talus/collision/contact_set.hpp>
 #include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/periodic_cell.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/spatial/local_frame.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -15,13 +17,14 @@ namespace talus {
 /// point half-way between their surfaces, which keeps their angular momentum; against an obstacle,
 /// which has none to keep, arms end on the surfaces, so that no gap or overlap lengthens or
 /// shortens them. Of images in a periodic cell, the arm is about the image's centre; how fast the
-/// cell deforms is told by `hold_images`. O(contacts).
+/// cell deforms, and how walls go along, is told later. O(contacts).
 template <int Dim>
 void assemble_jacobian(const ContactSet<Dim>& contacts, const Bodies<Dim>& bodies,
                        ContactJacobian<Dim>& jacobian) {
     jacobian.resize(contacts.count());
     jacobian.held.clear();
     jacobian.offset = contacts.offset;
+    jacobian.carried = contacts.offset;
     jacobian.cell_rate.setZero();
     jacobian.cell_lever.clear();
     for (std::size_t c = 0; c < contacts.count(); ++c) {
@@ -57,14 +60,36 @@ void hold_surfaces(std::span<const Twist<Dim>> excess, ContactJacobian<Dim>& jac
     }
 }
 
-/// Fills the levers of a cell that is driven by a stress, from what each body is away from its
-/// image at home [m]. O(contacts).
+/// Lets walls, bodies without bounds, go along with what touches them: `from_home` of each body
+/// [m]. O(contacts).
 template <int Dim>
-void assemble_cell_levers(const PerBody<Vector<Dim>>& from_home, ContactJacobian<Dim>& jacobian) {
-    jacobian.cell_lever.resize(jacobian.contact_count());
-    for (std::size_t c = 0; c < jacobian.contact_count(); ++c)
-        jacobian.cell_lever[c] =
-            jacobian.offset[c] + (from_home[jacobian.b[c]] - from_home[jacobian.a[c]]);
+void carry_walls(std::span<const double> bounding_radius, const PerBody<Vector<Dim>>& from_home,
+                 ContactJacobian<Dim>& jacobian) {
+    const auto is_wall = [&](BodyIndex i) {
+        return !std::isfinite(bounding_radius[static_cast<std::size_t>(i)]);
+    };
+    for (std::size_t c = 0; c < jacobian.contact_count(); ++c) {
+        const BodyIndex a = jacobian.a[c], b = jacobian.b[c];
+        if (is_wall(a) || is_wall(b)) jacobian.carried[c] = from_home[a] - from_home[b];
+    }
+}
+
+/// Fills the levers of a cell that is driven by a stress: from the image of a that is at home to
+/// where that of b would be, and back from there to the one that touches; none at walls, which
+/// touch at home. `home`: in lattice vectors, from the image at home to each body. O(contacts).
+template <int Dim>
+void assemble_cell_levers(const PeriodicCell<Dim>& cell, std::span<const ContactKey> keys,
+                          const PerBody<typename PeriodicCell<Dim>::Steps>& home,
+                          std::span<const double> bounding_radius, ContactJacobian<Dim>& jacobian) {
+    jacobian.cell_lever.assign(keys.size(), Vector<Dim>::Zero());
+    for (std::size_t c = 0; c < keys.size(); ++c) {
+        const auto a = static_cast<std::size_t>(keys[c].a);
+        const auto b = static_cast<std::size_t>(keys[c].b);
+        if (!std::isfinite(bounding_radius[a]) || !std::isfinite(bounding_radius[b])) continue;
+        typename PeriodicCell<Dim>::Steps steps = home[b];
+        for (std::size_t k = 0; k < steps.size(); ++k) steps[k] += keys[c].image.n[k] - home[a][k];
+        jacobian.cell_lever[c] = cell.offset(steps);
+    }
 }
 
 /// Fills M^-1 for a configuration, in world axes. O(bodies).
@@ -99,16 +124,16 @@ void assemble_rolling_lengths(std::span<const double> radius, ContactJacobian<Di
 
 /// Relative velocity of contact c when the bodies have the given world-axis twists:
 /// U_c = G_c u + W_c [m/s], local axes ([Moreau] equation (4)). Of a surface that moves on a shape
-/// that does not, only what goes along the surface counts. An image in a periodic cell that deforms
-/// moves otherwise than its body: a part of W. With `Rows` more than those of space: the rolling
-/// ones as well.
+/// that does not, only what goes along the surface counts. What a periodic cell that deforms adds
+/// to images, and to walls, is a part of W. With `Rows` more than those of space: the rolling ones
+/// as well.
 template <int Dim, int Rows = Dim>
 Vector<Rows> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t c,
                                std::span<const Twist<Dim>> twists) {
     const Twist<Dim>& a = twists[static_cast<std::size_t>(jacobian.a[c])];
     const Twist<Dim>& b = twists[static_cast<std::size_t>(jacobian.b[c])];
     Vector<Dim> u = jacobian.frame[c] * (a.at(jacobian.arm_a[c]) - b.at(jacobian.arm_b[c]));
-    if (!jacobian.offset.empty()) u -= jacobian.frame[c] * jacobian.image_velocity(c);
+    if (!jacobian.carried.empty()) u -= jacobian.frame[c] * jacobian.image_velocity(c);
     if (!jacobian.held.empty()) u[0] += jacobian.held[c];
     if constexpr (Rows == Dim) {
         return u;
@@ -127,8 +152,8 @@ template <int Dim>
 Vector<Dim> relative_velocity(const ContactJacobian<Dim>& jacobian, std::size_t c,
                               std::span<const Twist<Dim>> twists, const Matrix<Dim>& cell_rate) {
     Vector<Dim> u = relative_velocity<Dim>(jacobian, c, twists);
-    if (!jacobian.offset.empty() && cell_rate != jacobian.cell_rate)
-        u -= jacobian.frame[c] * ((cell_rate - jacobian.cell_rate) * jacobian.offset[c]);
+    if (!jacobian.carried.empty() && cell_rate != jacobian.cell_rate)
+        u -= jacobian.frame[c] * ((cell_rate - jacobian.cell_rate) * jacobian.carried[c]);
     return u;
 }
 

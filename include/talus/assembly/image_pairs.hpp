@@ -25,7 +25,7 @@ namespace talus {
 /// overlap. Every box is brought home into the cell of the shortest lattice vectors; its images
 /// that come near that cell are boxes of their own for the broad phase, which pair with those at
 /// home alone. No body pairs with its own images, and what has no bounds has none: it meets each
-/// body where that is.
+/// body where that is, which is compared one by one.
 template <int Dim>
 requires SpaceDimension<Dim>
 class ImagePairs {
@@ -54,8 +54,9 @@ class ImagePairs {
 
     void bring_home(const PeriodicCell<Dim>& cell, std::span<const Aabb<Dim>> boxes);
     void add_images(const PeriodicCell<Dim>& cell, std::size_t count);
-    void collect(const PeriodicCell<Dim>& cell, std::size_t count, Column<CandidatePair>& pairs,
-                 Column<ImageShift>& images);
+    void collect(const PeriodicCell<Dim>& cell, std::size_t count,
+                 const Column<CandidatePair>& pairs);
+    void add_unbounded(std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free);
     static Vector<Dim> shift(const Matrix<Dim>& vectors, const Steps& steps) {
         Vector<Dim> sum = Vector<Dim>::Zero();
         for (int k = 0; k < Dim; ++k)
@@ -83,7 +84,17 @@ void ImagePairs<Dim>::find(PairSearch<Dim> search, const PeriodicCell<Dim>& cell
     is_free_ = is_free;
     is_free_.resize(box_.size(), false);
     search(box_, is_free_, pairs);
-    collect(cell, boxes.size(), pairs, images);
+    found_.clear();
+    collect(cell, boxes.size(), pairs);
+    add_unbounded(boxes, is_free);
+    std::sort(found_.begin(), found_.end());
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+    pairs.clear();
+    images.clear();
+    for (const Pair& pair : found_) {
+        pairs.push_back(pair.bodies);
+        images.push_back(pair.image);
+    }
 }
 
 template <int Dim>
@@ -99,7 +110,12 @@ void ImagePairs<Dim>::bring_home(const PeriodicCell<Dim>& cell, std::span<const 
     bounded_.assign(boxes.size(), false);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         box_.push_back(boxes[i]);
-        if (!boxes[i].bounded() || is_empty(boxes[i])) continue;
+        if (is_empty(boxes[i])) continue;
+        if (!boxes[i].bounded()) {
+            constexpr double infinity = std::numeric_limits<double>::infinity();
+            box_.back() = {Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity)};
+            continue;
+        }
         bounded_[i] = true;
         const Vector<Dim> centre = 0.5 * (boxes[i].low + boxes[i].high);
         const Vector<Dim> half = 0.5 * (boxes[i].high - boxes[i].low);
@@ -188,30 +204,39 @@ requires SpaceDimension<Dim> ImageShift ImagePairs<Dim>::checked(const Steps& st
 template <int Dim>
 requires SpaceDimension<Dim>
 void ImagePairs<Dim>::collect(const PeriodicCell<Dim>& cell, std::size_t count,
-                              Column<CandidatePair>& pairs, Column<ImageShift>& images) {
+                              const Column<CandidatePair>& pairs) {
     const ReducedLattice<Dim> lattice = cell.reduced();
-    found_.clear();
     for (const CandidatePair& pair : pairs) {
         const auto i = static_cast<std::size_t>(pair.a), other = static_cast<std::size_t>(pair.b);
         const Image image = other < count ? Image{pair.b, {}} : image_[other - count];
         const auto j = static_cast<std::size_t>(image.body);
         if (i == j) continue;
         Steps steps{};
-        if (bounded_[i] && bounded_[j])
-            for (std::size_t k = 0; k < steps.size(); ++k)
-                steps[k] = home_[j][k] + image.steps[k] - home_[i][k];
+        for (std::size_t k = 0; k < steps.size(); ++k)
+            steps[k] = home_[j][k] + image.steps[k] - home_[i][k];
         if (i > j)
             for (auto& s : steps) s = -s;
         const CandidatePair bodies{std::min(pair.a, image.body), std::max(pair.a, image.body)};
         found_.push_back({bodies, checked(lattice.in_lattice(steps), bodies.a, bodies.b)});
     }
-    std::sort(found_.begin(), found_.end());
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-    pairs.clear();
-    images.clear();
-    for (const Pair& pair : found_) {
-        pairs.push_back(pair.bodies);
-        images.push_back(pair.image);
+}
+
+/// Pairs with what has no bounds, where bodies are.
+template <int Dim>
+requires SpaceDimension<Dim>
+void ImagePairs<Dim>::add_unbounded(std::span<const Aabb<Dim>> boxes,
+                                    const std::vector<bool>& is_free) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        if (boxes[i].bounded() || is_empty(boxes[i])) continue;
+        for (std::size_t j = 0; j < boxes.size(); ++j) {
+            const bool twice = j <= i && !boxes[j].bounded();
+            if (twice || j == i || is_empty(boxes[j]) || !(is_free[i] || is_free[j]) ||
+                !boxes[i].overlaps(boxes[j]))
+                continue;
+            found_.push_back(
+                {{static_cast<BodyIndex>(std::min(i, j)), static_cast<BodyIndex>(std::max(i, j))},
+                 {}});
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 #include <talus/core/types.hpp>
 #include <talus/dynamics/reduced_lattice.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -20,9 +21,12 @@ namespace talus {
 /// A periodic cell: every body of a system has images, shifted by whole numbers of the lattice
 /// vectors, and touches the images of others. The cell deforms at the rate L, its velocity
 /// gradient: lattice vectors move as dH/dt = L H, and an image shifted by s moves by L s faster
-/// than its body. Bodies themselves are not moved by that: their positions are never wrapped, so
-/// that displacements and momentum need no book of crossings, and a step changes the velocity of
-/// nobody who touches nobody ([LeesEdwards1972] say the same with wrapped positions).
+/// than its body. Of all images of a body the one at home, in the cell at the origin, moves as
+/// bodies do, by what pushes it alone; the others follow, accelerated by (dL/dt + L^2) s. Positions
+/// are never wrapped: a body that has left the home is itself an image of the one there and is
+/// moved so (cell_home.hpp), and it makes no difference which image of it is the body. In simple
+/// shear L^2 = 0, and no step changes the velocity of those who touch nobody ([LeesEdwards1972] say
+/// the same with wrapped positions).
 ///
 ///     sim.system().set_cell(PeriodicCell<3>::box({0.1, 0.1, 0.1}));
 ///     Matrix<3> simple_shear = Matrix<3>::Zero();
@@ -33,6 +37,7 @@ requires SpaceDimension<Dim>
 class PeriodicCell {
   public:
     using Directions = typename ReducedLattice<Dim>::Directions;
+    using Steps = typename ReducedLattice<Dim>::Steps;
     static constexpr Directions all_directions() {
         Directions all{};
         for (bool& one : all) one = true;
@@ -86,9 +91,14 @@ class PeriodicCell {
 
     /// From a body to that image of it [m].
     Vector<Dim> offset(const ImageShift& image) const {
+        Steps steps{};
+        std::copy_n(image.n.begin(), steps.size(), steps.begin());
+        return offset(steps);
+    }
+    Vector<Dim> offset(const Steps& steps) const {
         Vector<Dim> sum = Vector<Dim>::Zero();
         for (int k = 0; k < Dim; ++k)
-            sum += static_cast<double>(image.n[static_cast<std::size_t>(k)]) *
+            sum += static_cast<double>(steps[static_cast<std::size_t>(k)]) *
                    Vector<Dim>(lattice_.col(k));
         return sum;
     }

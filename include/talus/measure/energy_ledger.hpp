@@ -39,8 +39,8 @@ struct EnergyFlows {
     double correction = 0.0;   ///< position correction against gravity
     double exchange = 0.0;     ///< bodies that came, less those that went
     double rolling = 0.0;      ///< moments of rolling friction on the relative spin
-    /// Contacts with images on the deformation of the periodic cell: V sigma : L of what is at rest
-    /// in the mean.
+    /// Contacts with images on the deformation of the periodic cell, V sigma : L of what is at rest
+    /// in the mean, and what it gives to bodies away from home.
     double cell = 0.0;
 
     double sum() const {
@@ -169,16 +169,12 @@ class EnergyLedger {
             }
             Vector<Dim> u = u_a - u_b;
             const Vector<Dim>& r = step.impulse[c];
-            if (!j.offset.empty()) {
-                const Vector<Dim> imposed = j.image_velocity(c);
-                Vector<Dim> of_image = imposed, of_work = imposed;
-                if (!j.cell_lever.empty()) {
-                    const Matrix<Dim> change = 0.5 * (step.cell_rate_end - j.cell_rate);
-                    of_image += change * j.offset[c];
-                    of_work += change * j.cell_lever[c];
-                }
-                u -= j.frame[c] * of_image;
-                flows_.cell += r.dot(j.frame[c] * of_work);
+            if (!j.carried.empty()) {
+                Vector<Dim> of_cell = j.image_velocity(c);
+                if (!j.cell_lever.empty())
+                    of_cell += (0.5 * (step.cell_rate_end - j.cell_rate)) * j.carried[c];
+                u -= j.frame[c] * of_cell;
+                flows_.cell += r.dot(j.frame[c] * of_cell);
             }
             flows_.restitution += r[0] * u[0];
             flows_.friction += tangential(r).dot(tangential(u));
@@ -187,15 +183,22 @@ class EnergyLedger {
         }
     }
 
-    /// What bodies that have left a driven cell gained when its rate changed.
+    /// What bodies away from the home of a cell gain as it carries them along: before, at and after
+    /// the midpoint, and against gravity.
     template <class Step>
     void record_cell(const Step& step, const Bodies<Dim>& bodies) {
         const Matrix<Dim> change = step.cell_rate_end - step.problem.jacobian.cell_rate;
         for (std::size_t i = 0; i < bodies.count(); ++i) {
-            if (bodies.is_obstacle(i) || step.from_home[i].isZero(0.0)) continue;
-            const Vector<Dim> gained = change * step.from_home[i];
-            flows_.cell +=
-                bodies.mass(i) * gained.dot(step.end[i].linear - Vector<Dim>(0.5 * gained));
+            const Vector<Dim>& s = step.from_home[i];
+            if (bodies.is_obstacle(i) || s.isZero(0.0)) continue;
+            const Vector<Dim>& begin = step.begin[i].linear;
+            const Vector<Dim>& end = step.end[i].linear;
+            const Vector<Dim> before = step.cell_gains.begin * s, after = step.cell_gains.end * s;
+            const double gained = before.dot(begin - 0.5 * before) +
+                                  Vector<Dim>(change * s).dot(0.5 * (begin + end)) +
+                                  after.dot(end + 0.5 * after) -
+                                  gravity_.dot(step.cell_gains.way * s);
+            flows_.cell += bodies.mass(i) * gained;
         }
     }
 

@@ -3,6 +3,7 @@
 
 #include <talus/core/input.hpp>
 #include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/kinetic_moment.hpp>
 #include <talus/dynamics/periodic_cell.hpp>
 #include <talus/problem/contact_problem.hpp>
 
@@ -76,25 +77,7 @@ Matrix<Dim> cell_stress(const ContactJacobian<Dim>& jacobian, std::span<const Ve
 /// with c the velocity of a body against that of the cell where it is, less the mean of all [Pa].
 template <int Dim>
 Matrix<Dim> kinetic_stress(const Bodies<Dim>& bodies, const PeriodicCell<Dim>& cell) {
-    double mass = 0.0;
-    Vector<Dim> mean = Vector<Dim>::Zero();
-    const auto own = [&](std::size_t i) {
-        return Vector<Dim>(bodies.velocity[i] - cell.velocity_at(bodies.position[i]));
-    };
-    for (std::size_t i = 0; i < bodies.count(); ++i) {
-        if (bodies.is_obstacle(i)) continue;
-        mass += bodies.mass(i);
-        mean += bodies.mass(i) * own(i);
-    }
-    Matrix<Dim> sum = Matrix<Dim>::Zero();
-    if (!(mass > 0.0)) return sum;
-    mean /= mass;
-    for (std::size_t i = 0; i < bodies.count(); ++i) {
-        if (bodies.is_obstacle(i)) continue;
-        const Vector<Dim> c = own(i) - mean;
-        sum -= bodies.mass(i) * (c * c.transpose());
-    }
-    return sum / cell.volume();
+    return (-1.0 / cell.volume()) * kinetic_moment(bodies, cell);
 }
 
 }  // namespace talus

@@ -37,11 +37,15 @@ struct ContactJacobian {
     /// others, u_m = L (axes . (w_a - w_b)) [m/s] and moment = L (axes^T r_m) [N m], with the
     /// `rolling_axes` of the frame, positive [m]. Empty where none does.
     Column<double> rolling_length;
-    /// In a periodic cell: from b to the image of it that touches [m], and the rate at which the
-    /// cell deforms [1/s]; that image moves by `cell_rate offset` faster than b. Empty where there
-    /// is no cell.
+    /// In a periodic cell: from b to the image of it that touches [m]. Empty where there is no
+    /// cell.
     Column<Vector<Dim>> offset;
+    /// The rate at which the cell deforms [1/s], and on which way [m]: what touches on the side of
+    /// b moves by `cell_rate carried` faster than b. Of images that is their offset. A wall without
+    /// bounds is carried along with the body that it touches, as far as that is from home, and
+    /// touches the image at home as it is. Empty where there is no cell.
     Matrix<Dim> cell_rate = Matrix<Dim>::Zero();
+    Column<Vector<Dim>> carried;
     /// Levers by which impulses r change the rate of a cell that is driven by a stress, by
     /// - InverseMass::cell o (F^T r) lever^T: offsets between the images at home [m]. Empty of a
     /// cell whose rate is imposed.
@@ -54,9 +58,9 @@ struct ContactJacobian {
                 std::string("periodic cell is driven by a stress, but must be imposed: ") + kind +
                 " has no room for it");
     }
-    /// Velocity of the image of b less that of b, world axes [m/s].
+    /// Velocity that the cell adds to the side of b, world axes [m/s].
     Vector<Dim> image_velocity(std::size_t c) const {
-        return offset.empty() ? Vector<Dim>::Zero() : Vector<Dim>(cell_rate * offset[c]);
+        return carried.empty() ? Vector<Dim>::Zero() : Vector<Dim>(cell_rate * carried[c]);
     }
     std::size_t contact_count() const { return a.size(); }
     /// Throws input_error unless all contacts are of bodies with an index below `count`.
@@ -77,6 +81,7 @@ struct ContactJacobian {
         if (!held.empty()) detail::make_room(held, n);
         if (!rolling_length.empty()) detail::make_room(rolling_length, n);
         if (!offset.empty()) detail::make_room(offset, n);
+        if (!carried.empty()) detail::make_room(carried, n);
         if (!cell_lever.empty()) detail::make_room(cell_lever, n);
     }
     void resize(std::size_t n) {
@@ -88,6 +93,7 @@ struct ContactJacobian {
         if (!held.empty()) held.resize(n);
         if (!rolling_length.empty()) rolling_length.resize(n);
         if (!offset.empty()) offset.resize(n);
+        if (!carried.empty()) carried.resize(n);
         if (!cell_lever.empty()) cell_lever.resize(n);
     }
 };

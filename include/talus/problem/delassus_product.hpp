@@ -113,8 +113,8 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     }
 
     /// Writes to label[i] a number below contact_count() that contact i shares with the contacts
-    /// that chains of free bodies connect with it, and with no other. Not for concurrent use of one
-    /// operator.
+    /// that chains of free bodies, and a driven cell, connect with it, and with no other. Not for
+    /// concurrent use of one operator.
     void islands(std::span<std::uint32_t> label) const {
         const auto free = [&](BodyIndex k) {
             const Body& x = bodies_[static_cast<std::size_t>(k)];
@@ -130,18 +130,23 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             if (free(row(i).a) && free(row(i).b))
                 islands_.join(static_cast<std::size_t>(row(i).a),
                               static_cast<std::size_t>(row(i).b));
-        for (std::size_t i = 0; driven_ && i < contact_count(); ++i) {
-            const Row c = row(i);
-            if (jacobian_->cell_lever[i].isZero(0.0)) continue;
-            const BodyIndex body = free(c.a) ? c.a : c.b;
-            islands_.join(static_cast<std::size_t>(body), bodies_.size() - 1);
-        }
-        first_contact_.assign(bodies_.size(), none);
+        // What an impulse of contact i moves: one of the bodies or, behind them, the driven cell.
+        const std::size_t count = bodies_.size();
+        const auto pushes_cell = [&](std::size_t i) {
+            return driven_ && !jacobian_->cell_lever[i].isZero(0.0);
+        };
+        const auto moved = [&](std::size_t i) {
+            if (free(row(i).a)) return static_cast<std::size_t>(row(i).a);
+            if (free(row(i).b)) return static_cast<std::size_t>(row(i).b);
+            return pushes_cell(i) ? count - 1 : count;
+        };
+        for (std::size_t i = 0; driven_ && i < contact_count(); ++i)
+            if (pushes_cell(i)) islands_.join(moved(i), count - 1);
+        first_contact_.assign(count, none);
         for (std::size_t i = 0; i < contact_count(); ++i) {
             label[i] = static_cast<std::uint32_t>(i);
-            const BodyIndex body = free(row(i).a) ? row(i).a : row(i).b;
-            if (!free(body)) continue;
-            std::uint32_t& first = first_contact_[islands_.root(static_cast<std::size_t>(body))];
+            if (moved(i) == count) continue;
+            std::uint32_t& first = first_contact_[islands_.root(moved(i))];
             if (first == none) first = label[i];
             label[i] = first;
         }

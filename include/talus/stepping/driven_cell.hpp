@@ -3,21 +3,48 @@
 
 #include <talus/assembly/apply_impulses.hpp>
 #include <talus/assembly/contact_jacobian.hpp>
+#include <talus/core/input.hpp>
 #include <talus/dynamics/cell_drive.hpp>
+#include <talus/dynamics/kinetic_moment.hpp>
 #include <talus/stepping/step_data.hpp>
 
+#include <cmath>
 #include <cstddef>
 
 namespace talus {
 
-/// Makes a cell that a stress drives one more body of a step's problem.
+/// Makes a cell that a stress drives one more body of a step's problem. Throws input_error where
+/// there is no cell, and if the drive damps too much for the step.
 template <int Dim, class Law, class SystemType>
 void pose_cell(const SystemType& system, StepData<Dim, Law>& data) {
     const CellDrive<Dim>& drive = *system.cell_drive();
-    data.cell_rate_free = drive.free_rate(*data.cell, data.t_mid(), data.h);
-    home_offsets(*data.cell, system.bodies, system.bounding_radius(), data.from_home);
-    assemble_cell_levers(data.from_home, data.problem.jacobian);
+    if (!data.cell)
+        throw input_error(
+            "stress drives no cell, but must drive one: call set_cell, or drive_cell(std::nullopt) "
+            "to take it away");
+    drive.require_damping_within(data.h);
+    data.cell_is_driven = true;
+    data.cell_rate_free = drive.free_rate(*data.cell, kinetic_moment(system.bodies, *data.cell),
+                                          data.t_mid(), data.h);
+    assemble_cell_levers<Dim>(*data.cell, data.contacts.key, data.home, system.bounding_radius(),
+                              data.problem.jacobian);
     data.problem.inverse_mass.cell = drive.mobility();
+}
+
+/// Whether an impulse along the normal of a contact changes the rate of the cell, whatever its
+/// bodies do.
+template <int Dim, class Law, class SystemType>
+bool pushes_cell(const SystemType& system, const StepData<Dim, Law>& data, std::size_t c) {
+    if (!data.cell || data.contacts.key[c].image.is_zero()) return false;
+    const CellDrive<Dim>& drive = *system.cell_drive();
+    const Vector<Dim>& normal = data.contacts.normal[c];
+    const Vector<Dim>& offset = data.contacts.offset[c];
+    constexpr double rounding = 1e-12;
+    for (int i = 0; i < Dim; ++i)
+        for (int j = 0; j < Dim; ++j)
+            if (drive.drives(i, j) && std::abs(normal[i] * offset[j]) > rounding * offset.norm())
+                return true;
+    return false;
 }
 
 /// Adds to the free velocities of the contacts what the stress alone would do to the cell.
@@ -46,15 +73,19 @@ void apply_to_cell(SystemType& system, StepData<Dim, Law>& data) {
 
 /// How a step treats a driven cell: through pointers, so that programs without one have none of it
 /// compiled.
-template <class SystemType, class Data>
+template <int Dim, class SystemType, class Data>
 struct DriveRoutines {
+    /// Throws input_error where drive and cell do not go together.
+    void (*meet)(const CellDrive<Dim>&, const PeriodicCell<Dim>&);
     void (*pose)(const SystemType&, Data&);
+    bool (*pushes)(const SystemType&, const Data&, std::size_t contact);
     void (*add_loads)(Data&);
     void (*apply)(SystemType&, Data&);
 };
 template <int Dim, class Law, class SystemType>
-inline constexpr DriveRoutines<SystemType, StepData<Dim, Law>> drive_routines{
-    &pose_cell<Dim, Law, SystemType>, &add_cell_loads<Dim, Law>,
+inline constexpr DriveRoutines<Dim, SystemType, StepData<Dim, Law>> drive_routines{
+    [](const CellDrive<Dim>& drive, const PeriodicCell<Dim>& cell) { drive.require_along(cell); },
+    &pose_cell<Dim, Law, SystemType>, &pushes_cell<Dim, Law, SystemType>, &add_cell_loads<Dim, Law>,
     &apply_to_cell<Dim, Law, SystemType>};
 
 }  // namespace talus

@@ -34,19 +34,22 @@ inline bool has_walls(std::span<const double> bounding_radius) {
 
 /// The same where there may be a periodic cell, of which bodies and images follow the mean motion:
 /// the body's own motion against that, and what deforms between its centre and another within that
-/// reach. Walls, which have no images, are met by the velocities as they are.
+/// reach. Walls, which have no images, are met by the velocity of the image at home, from which the
+/// body is away by `from_home` [m].
 template <int Dim>
 double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bounding_radius,
                           double gained, double h, const std::optional<PeriodicCell<Dim>>& cell,
-                          bool walls) {
+                          bool walls, const Vector<Dim>& from_home) {
     const double plain = anticipation_reach(bodies, i, bounding_radius, gained, h);
     if (!cell || !std::isfinite(bounding_radius)) return plain;
-    const double speed = bodies.velocity[i].norm();
-    const Vector<Dim> own = bodies.velocity[i] - cell->velocity_at(bodies.position[i]);
+    const auto at_speed_against = [&](const Vector<Dim>& velocity) {
+        return plain + h * ((bodies.velocity[i] - velocity).norm() - bodies.velocity[i].norm());
+    };
     const double strain = h * cell->velocity_gradient().norm();
     const double way =
-        (plain + h * (own.norm() - speed) + strain * bounding_radius) / (1.0 - strain);
-    return walls ? std::max(way, plain) : way;
+        (at_speed_against(cell->velocity_at(bodies.position[i])) + strain * bounding_radius) /
+        (1.0 - strain);
+    return walls ? std::max(way, at_speed_against(cell->velocity_at(from_home))) : way;
 }
 
 /// What a gap adds to the normal velocity that the law sees: consecutive midpoints differ by h

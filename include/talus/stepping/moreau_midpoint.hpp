@@ -43,7 +43,8 @@ namespace talus {
 ///   q_end  = q_mid + (h/2) u_end
 ///
 /// A periodic cell deforms to t_mid with the bodies and on to t_end; images move as it does at
-/// t_mid. One that a stress drives is one more body of the problem (CellDrive).
+/// t_mid, and bodies that have left the home are carried along (CellCarriage). One that a stress
+/// drives is one more body of the problem (CellDrive).
 template <int Dim, BodyLaw<Dim> Law, Shape<Dim> ShapeType, BroadPhase<Dim> Broad,
           class Hooks = NoHooks>
 class MoreauMidpoint {
@@ -155,10 +156,11 @@ TALUS_OF_STEP::pose(SystemType& system, double t_begin, double h, const StepPara
     detect(system, params, data);
     assemble_jacobian(data.contacts, system.bodies, data.problem.jacobian);
     if (data.cell) data.problem.jacobian.cell_rate = data.cell->velocity_gradient();
+    if (!data.from_home.empty()) system.cell_routines().carry_walls(system, data);
     hold_moving_surfaces(system, data);
     measure_rolling(system, data);
     assemble_inverse_mass(system.bodies, data.problem.inverse_mass);
-    if (data.cell && system.cell_drive()) system.drive_routines().pose(system, data);
+    if (system.cell_drive()) system.drive_routines().pose(system, data);
     hooks_.matrices_known(system, data);
     hooks_.forces_known(system, data);
     assemble_contacts(system, params, data);
@@ -184,7 +186,7 @@ TALUS_OF_STEP::complete(SystemType& system, Data& data) {
     apply_impulses<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.impulse, data.end);
     if constexpr (has_rolling_rows<Law>)
         apply_moments<Dim>(data.problem.jacobian, data.problem.inverse_mass, data.moment, data.end);
-    if (!data.from_home.empty()) system.drive_routines().apply(system, data);
+    if (data.cell_is_driven) system.drive_routines().apply(system, data);
     hooks_.velocities_known(system, data);
     finish(system, data);
     hooks_.finished(system, data);
@@ -218,10 +220,12 @@ TALUS_OF_STEP::move_to_midpoint(SystemType& system, Data& data) {
     constexpr double part_of_step = 1e-3;  // over which the obstacles' motion is checked
     require_finite("gravity", system.gravity);
     system.place_obstacles(data.t_mid(), part_of_step * data.h);
-    drift(bodies, 0.5 * data.h);
-    system.move_cell(0.5 * data.h);
-    data.cell = system.cell();
     data.from_home.clear();
+    data.cell_is_driven = false;
+    if (system.cell()) system.cell_routines().begin(system, data);
+    drift(bodies, 0.5 * data.h);
+    if (system.cell()) system.cell_routines().to_midpoint(system, data);
+    data.cell = system.cell();
     if (data.cell) data.cell_rate_free = data.cell_rate_end = data.cell->velocity_gradient();
     data.begin.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -240,7 +244,9 @@ TALUS_OF_STEP::detect(const SystemType& system, const StepParams& params, Data& 
                       system.step_cell(data.h));
     data.contacts.keep_if([&](std::size_t c) {
         const ContactKey& key = data.contacts.key[c];
-        if (!can_part(data.contacts, c, system.bodies) && !holds_any_pull<Dim>(system.law_of(key)))
+        if (!can_part(data.contacts, c, system.bodies) &&
+            !holds_any_pull<Dim>(system.law_of(key)) &&
+            !(system.cell_drive() && system.drive_routines().pushes(system, data, c)))
             return false;
         const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
         const double thinner = std::min(look_.thickness(system, a), look_.thickness(system, b));
@@ -320,7 +326,7 @@ TALUS_OF_STEP::assemble_contacts(const SystemType& system, const StepParams& par
     for (const ContactKey& key : data.contacts.key) data.problem.laws.push_back(system.law_of(key));
     assemble_velocities<Dim, Law>(data.problem.jacobian, data.begin, data.free, data.problem.laws,
                                   data.problem.free_velocity);
-    if (!data.from_home.empty()) system.drive_routines().add_loads(data);
+    if (data.cell_is_driven) system.drive_routines().add_loads(data);
     const bool by_rule = !params.contact_tolerance && params.gaps_may_close;
     if (params.scheme != Scheme::gap_anticipating && !by_rule) return;
     for (std::size_t c = 0; c < data.contact_count(); ++c) {
@@ -358,7 +364,7 @@ TALUS_OF_STEP::finish(SystemType& system, Data& data) {
                            bodies.rotation[i].matrix());
     }
     system.place_obstacles(data.t_end());
-    system.move_cell(0.5 * data.h);
+    if (data.cell) system.cell_routines().to_end(system, data);
 }
 
 #undef TALUS_OF_STEP

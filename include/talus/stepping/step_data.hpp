@@ -4,6 +4,7 @@
 #include <talus/collision/contact_set.hpp>
 #include <talus/core/column.hpp>
 #include <talus/core/types.hpp>
+#include <talus/dynamics/cell_home.hpp>
 #include <talus/dynamics/periodic_cell.hpp>
 #include <talus/problem/contact_problem.hpp>
 #include <talus/solver/report.hpp>
@@ -42,16 +43,23 @@ struct StepData {
     /// Bodies that turn too far within the step, by 1.5 rad or more, for their angular momentum to
     /// be kept (Gyroscopic::momentum_preserving).
     std::size_t turned_too_far = 0;
-    PerBody<Twist<Dim>> begin;  ///< u_begin, world axes
-    PerBody<Twist<Dim>> free;   ///< u_free, world axes
-    PerBody<Twist<Dim>> end;    ///< u_end, world axes
+    /// World axes. Of bodies away from the home of a periodic cell, s at the midpoint, what
+    /// stands here is that of the image at home, which does not change on the way to the midpoint
+    /// and from there, and L s (`cell_gains` is the rest).
+    PerBody<Twist<Dim>> begin;  ///< u_begin
+    PerBody<Twist<Dim>> free;   ///< u_free
+    PerBody<Twist<Dim>> end;    ///< u_end
 
     ContactSet<Dim> contacts;               ///< at the midpoint configuration
     std::optional<PeriodicCell<Dim>> cell;  ///< the same, if there is one
     /// Velocity gradient of the cell that the loads alone would lead to, and that at the end [1/s].
     Matrix<Dim> cell_rate_free = Matrix<Dim>::Zero(), cell_rate_end = Matrix<Dim>::Zero();
-    /// Of each body from its image at home [m]; empty unless a stress drives the cell.
+    bool cell_is_driven = false;  ///< by a stress
+    /// Of each body from its image at home, s, at the midpoint: in lattice vectors, and as a vector
+    /// [m]. Empty where the cell neither deforms nor is driven.
+    PerBody<typename PeriodicCell<Dim>::Steps> home;
     PerBody<Vector<Dim>> from_home;
+    CellGains<Dim> cell_gains;         ///< of bodies away from home
     ContactProblem<Dim, Law> problem;  ///< what the solver was given
     Column<Vector<Dim>> impulse;       ///< r, local axes [N s]
     /// Moment impulses of rolling friction on the first body of each contact, world axes [N m s];

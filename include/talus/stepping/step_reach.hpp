@@ -61,9 +61,11 @@ struct StepReach {
         const double touching = params.contact_tolerance.value_or(0.0);
         const bool walls = data.cell && has_walls(system.bounding_radius());
         for (std::size_t i = 0; i < system.bodies.count(); ++i) {
+            const Vector<Dim> from_home =
+                data.from_home.empty() ? Vector<Dim>::Zero() : data.from_home[i];
             const double way =
                 anticipation_reach<Dim>(system.bodies, i, system.bounding_radius()[i],
-                                        fall[i] / data.h, data.h, data.cell, walls);
+                                        fall[i] / data.h, data.h, data.cell, walls, from_home);
             reach[i] = std::max(reach[i], 0.5 * touching + way);
             motion.push_back({data.h * data.begin[i].linear, data.h * data.begin[i].angular});
         }

@@ -15,7 +15,7 @@
 #include <talus/law/material_table.hpp>
 #include <talus/law/weighted_mean.hpp>
 #include <talus/stepping/body_shapes.hpp>
-#include <talus/stepping/cell_room.hpp>
+#include <talus/stepping/deforming_cell.hpp>
 #include <talus/stepping/driven_cell.hpp>
 #include <talus/stepping/obstacle_checks.hpp>
 #include <talus/stepping/step_data.hpp>
@@ -173,13 +173,17 @@ struct System {
 
     /// The periodic cell, if there is one, at `time()`.
     const std::optional<PeriodicCell<Dim>>& cell() const { return cell_; }
-    /// From now on bodies meet each other's images; walls without bounds have none. Throws
-    /// input_error, and changes nothing, for what does not fit into the cell (require_room).
+    /// From now on bodies meet each other's images; walls without bounds have none. In the place of
+    /// another cell, a change of the rate is one as by set_velocity_gradient, about the homes in
+    /// the new lattice. Throws input_error, and changes nothing, for what does not fit into the
+    /// cell (require_room), and for a drive of what is not periodic.
     void set_cell(const PeriodicCell<Dim>& cell) {
         require_between_steps();
         require_room<Dim, ShapeType>(cell, bodies, shapes(), bounding_radius());
+        if (drive_) drive_routines_->meet(*drive_, cell);
+        if (cell_) cell_routines_->replace(*cell_, cell, bodies, bounding_radius());
         cell_ = cell;
-        cell_routines_ = &talus::cell_routines<Dim, ShapeType, System>;
+        cell_routines_ = &talus::cell_routines<Dim, Law, ShapeType, System>;
     }
     void remove_cell() {
         require_between_steps();
@@ -191,20 +195,20 @@ struct System {
         require_between_steps();
         change_rate(cell_, bodies, bounding_radius(), rate);
     }
-    /// Lets a stress drive the cell, or (nullopt) leaves it at its rate; like forces no part of
-    /// `state`. Throws input_error where the drive is not as it must be.
+    /// Lets a stress drive the cell, which there must be when a step is made, or (nullopt) leaves
+    /// it at its rate; like forces no part of `state`. Throws input_error where the drive is not as
+    /// it must be, or drives what is not periodic.
     void drive_cell(const std::optional<CellDrive<Dim>>& drive) {
         require_between_steps();
         if (drive) drive->require_valid();
+        if (drive && cell_) drive->require_along(*cell_);
         drive_ = drive;
         drive_routines_ = &talus::drive_routines<Dim, Law, System>;
     }
-    const auto& drive_routines() const { return *drive_routines_; }
     const std::optional<CellDrive<Dim>>& cell_drive() const { return drive_; }
-    /// Deforms the cell for a time [s], within a step.
-    void move_cell(double duration) {
-        if (cell_) cell_routines_->deform(*this, duration);
-    }
+    /// For steps: where there is a cell, where there is a drive.
+    const auto& cell_routines() const { return *cell_routines_; }
+    const auto& drive_routines() const { return *drive_routines_; }
     /// The cell as contact detection takes it in a step of that length [s].
     StepCell<Dim> step_cell(double h) const {
         return cell_ ? cell_routines_->images(*cell_, h) : StepCell<Dim>{};
@@ -241,8 +245,8 @@ struct System {
     BodyShapes<Dim, ShapeType> shapes_;
     std::optional<PeriodicCell<Dim>> cell_;
     std::optional<CellDrive<Dim>> drive_;
-    const CellRoutines<Dim, System>* cell_routines_ = nullptr;
-    const DriveRoutines<System, StepData<Dim, Law>>* drive_routines_ = nullptr;
+    const CellRoutines<Dim, System, StepData<Dim, Law>>* cell_routines_ = nullptr;
+    const DriveRoutines<Dim, System, StepData<Dim, Law>>* drive_routines_ = nullptr;
 };
 
 template <int Dim, class Law, class ShapeType>
@@ -378,10 +382,10 @@ void System<Dim, Law, ShapeType>::restore(const RunState<Dim, ShapeType>& state)
         other.placed_.push_back(other.placed_state(obstacle.body));
     other.gravity = state.gravity;
     other.time_ = state.time;
-    if (state.cell) other.set_cell(*state.cell);
-    other.forces = std::move(forces);
     other.drive_ = drive_;
     other.drive_routines_ = drive_routines_;
+    if (state.cell) other.set_cell(*state.cell);
+    other.forces = std::move(forces);
     *this = std::move(other);
 }
 

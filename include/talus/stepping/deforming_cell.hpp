@@ -2,12 +2,15 @@
 #pragma once
 
 #include <talus/assembly/cell_images.hpp>
+#include <talus/assembly/contact_jacobian.hpp>
 #include <talus/core/input.hpp>
 #include <talus/dynamics/bodies.hpp>
+#include <talus/dynamics/cell_home.hpp>
 #include <talus/dynamics/periodic_cell.hpp>
 #include <talus/geometry/half_space.hpp>
 #include <talus/geometry/round_hole.hpp>
 #include <talus/geometry/shape_view.hpp>
+#include <talus/stepping/step_data.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -75,24 +78,66 @@ void deform(PeriodicCell<Dim>& cell, double duration) {
     cell.advance(duration);
 }
 
+/// Notes who is away from home, before bodies move: for the whole step.
+template <int Dim, class Law, class SystemType>
+void note_homes(const SystemType& system, StepData<Dim, Law>& data) {
+    const PeriodicCell<Dim>& cell = *system.cell();
+    if (!system.cell_drive() && cell.velocity_gradient() == Matrix<Dim>::Zero()) return;
+    home_steps(cell, system.bodies, system.bounding_radius(), data.home);
+    home_offsets(cell, data.home, data.from_home);
+}
+
+/// Deforms the cell for half a step, after bodies have drifted, and carries along those that are
+/// away from home by `from_home`.
+template <int Dim, class ShapeType, class Law, class SystemType>
+void deform_half(SystemType& system, const StepData<Dim, Law>& data) {
+    PeriodicCell<Dim> cell = *system.cell();
+    deform(cell, 0.5 * data.h);
+    require_room<Dim, ShapeType>(cell, system.bodies, system.shapes(), system.bounding_radius());
+    system.put_cell(cell);
+    if (data.from_home.empty()) return;
+    CellCarriage<Dim>(cell.velocity_gradient(), 0.5 * data.h).apply(data.from_home, system.bodies);
+}
+
+/// To the midpoint, where offsets from home stay until the end.
+template <int Dim, class ShapeType, class Law, class SystemType>
+void deform_to_midpoint(SystemType& system, StepData<Dim, Law>& data) {
+    deform_half<Dim, ShapeType>(system, data);
+    if (!data.from_home.empty()) home_offsets(*system.cell(), data.home, data.from_home);
+}
+
+/// On to the end.
+template <int Dim, class ShapeType, class Law, class SystemType>
+void deform_to_end(SystemType& system, StepData<Dim, Law>& data) {
+    deform_half<Dim, ShapeType>(system, data);
+    if (!data.from_home.empty())
+        data.cell_gains =
+            CellGains<Dim>(data.cell->velocity_gradient(), data.cell_rate_end, 0.5 * data.h);
+}
+
 /// How a system and its step treat a periodic cell: through pointers, so that programs without one
 /// have none of it compiled.
-template <int Dim, class SystemType>
+template <int Dim, class SystemType, class Data>
 struct CellRoutines {
     StepCell<Dim> (*images)(const PeriodicCell<Dim>&, double h);
-    void (*deform)(SystemType&, double duration);  ///< and checks the room
+    void (*begin)(const SystemType&, Data&);
+    void (*to_midpoint)(SystemType&, Data&);
+    void (*carry_walls)(const SystemType&, Data&);
+    void (*to_end)(SystemType&, Data&);
+    void (*replace)(const PeriodicCell<Dim>&, const PeriodicCell<Dim>&, Bodies<Dim>&,
+                    std::span<const double>);
 };
-template <int Dim, class ShapeType, class SystemType>
-inline constexpr CellRoutines<Dim, SystemType> cell_routines{
+template <int Dim, class Law, class ShapeType, class SystemType>
+inline constexpr CellRoutines<Dim, SystemType, StepData<Dim, Law>> cell_routines{
     [](const PeriodicCell<Dim>& cell, double h) {
         return StepCell<Dim>::of(cell, Matrix<Dim>(h * cell.velocity_gradient()));
     },
-    [](SystemType& system, double duration) {
-        PeriodicCell<Dim> cell = *system.cell();
-        deform(cell, duration);
-        require_room<Dim, ShapeType>(cell, system.bodies, system.shapes(),
-                                     system.bounding_radius());
-        system.put_cell(cell);
-    }};
+    &note_homes<Dim, Law, SystemType>,
+    &deform_to_midpoint<Dim, ShapeType, Law, SystemType>,
+    [](const SystemType& system, StepData<Dim, Law>& data) {
+        carry_walls(system.bounding_radius(), data.from_home, data.problem.jacobian);
+    },
+    &deform_to_end<Dim, ShapeType, Law, SystemType>,
+    &replace_cell<Dim>};
 
 }  // namespace talus
