@@ -22,7 +22,7 @@ class Rotation;
 template <int Dim>
 requires SpaceDimension<Dim> &&(Dim == 2) class Rotation<Dim> {
   public:
-    Rotation() noexcept {}
+    Rotation() noexcept = default;
     explicit Rotation(double angle) : c_(std::cos(angle)), s_(std::sin(angle)) {}  ///< [rad]
 
     static Rotation identity() { return {}; }
