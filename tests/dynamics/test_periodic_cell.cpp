@@ -11,6 +11,7 @@
 
 #include "common/dimensions.hpp"
 #include "common/random_geometry.hpp"
+#include "common/said.hpp"
 
 BOOST_AUTO_TEST_SUITE(dynamics_periodic_cell)
 
@@ -131,14 +132,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_no_cell_is_refused, D, dimensions) {
     constexpr int Dim = D::value;
     using M = talus::Matrix<Dim>;
     using Cell = talus::PeriodicCell<Dim>;
-    const auto said = [](auto&& make) {
-        try {
-            make();
-        } catch (const talus::input_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
     M left = M::Identity();
     left(0, 0) = -1.0;
     BOOST_TEST(said([&] { Cell{left}; }) ==

@@ -20,6 +20,7 @@
 
 #include "common/dimensions.hpp"
 #include "common/random_geometry.hpp"
+#include "common/said.hpp"
 #include "stepping/experiment.hpp"
 
 BOOST_AUTO_TEST_SUITE(stepping_driven_cell)
@@ -170,14 +171,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_gas_is_pressed_together_with_books_that_close, D
 BOOST_AUTO_TEST_CASE_TEMPLATE(drives_that_are_none_are_refused, D, dimensions) {
     constexpr int Dim = D::value;
     talus::Simulation<Dim> sim(experiment::law<Dim>(0.3), {.h = 1e-3});
-    const auto said = [](auto&& act) {
-        try {
-            act();
-        } catch (const talus::input_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
     Drive<Dim> drive;
     BOOST_CHECK_THROW(sim.system().drive_cell(drive), talus::input_error);
     drive.mass = 1.0;

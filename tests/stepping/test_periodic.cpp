@@ -19,6 +19,7 @@
 
 #include "common/dimensions.hpp"
 #include "common/random_geometry.hpp"
+#include "common/said.hpp"
 #include "stepping/experiment.hpp"
 
 BOOST_AUTO_TEST_SUITE(stepping_periodic)
@@ -286,14 +287,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_does_not_fit_is_refused_and_changes_nothing, 
     auto sim = empty_scene<Dim>(experiment::law<Dim>(0.5), 1e-3);
     auto& system = sim.system();
     const V<Dim> up = V<Dim>::Unit(Dim - 1);
-    const auto said = [](auto&& act) {
-        try {
-            act();
-        } catch (const talus::input_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
     const auto cell = Cell<Dim>::box(V<Dim>::Ones());
     BOOST_TEST(said([&] { system.set_velocity_gradient(M<Dim>::Identity()); }) ==
                "velocity gradient is of no cell, but must be of one: call set_cell");
