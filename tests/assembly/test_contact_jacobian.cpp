@@ -25,8 +25,8 @@ struct RandomContacts {
             talus::AngularVector<Dim> moments;
             for (int k = 0; k < moments.size(); ++k)
                 moments[k] = random_input::uniform(rng, 1.0, 1.9);
-            bodies.add({random_input::uniform(rng, 1.0, 2.0), moments},
-                       random_input::pose<Dim>(rng));
+            const double mass = random_input::uniform(rng, 1.0, 2.0);
+            bodies.add({mass, moments}, random_input::pose<Dim>(rng));
         }
         bodies.add_obstacle(random_input::pose<Dim>(rng));
         for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}, {1, 2}})

@@ -93,9 +93,10 @@ Crowd<Dim> random_crowd(random_geometry::Generator& g, int count, bool balls_alo
     crowd.cell = talus::PeriodicCell<Dim>(lattice, talus::Matrix<Dim>::Zero(), periodic);
     for (int i = 0; i < count; ++i) {
         const int kind = balls_alone ? 0 : static_cast<int>(g() % 4);
-        crowd.add(random_geometry::convex_shape<Dim>(g, kind, Dim == 2 ? 0.1 : 0.2),
-                  random_geometry::pose<Dim>(g, 2.0), !balls_alone && g() % 5 == 0,
-                  uniform(g, 0.0, 0.02));
+        const auto shape = random_geometry::convex_shape<Dim>(g, kind, Dim == 2 ? 0.1 : 0.2);
+        const auto pose = random_geometry::pose<Dim>(g, 2.0);
+        const bool fixed = !balls_alone && g() % 5 == 0;
+        crowd.add(shape, pose, fixed, uniform(g, 0.0, 0.02));
     }
     return crowd;
 }

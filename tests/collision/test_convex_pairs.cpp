@@ -18,8 +18,7 @@ void try_kinds(int kind_a, int kind_b, double scale) {
             const auto b = random_geometry::convex_shape<Dim>(g, kind_b, scale);
             const auto at_a = random_geometry::pose<Dim>(g, scale);
             auto at_b = random_geometry::pose<Dim>(g, scale);
-            at_b.position = at_a.position + scale * random_geometry::uniform(g, 0.4, 2.4) *
-                                                random_geometry::direction<Dim>(g);
+            at_b.position = at_a.position + scale * random_geometry::displacement<Dim>(g, 0.4, 2.4);
             BOOST_TEST_CONTEXT("trial " << trial)
             PairTester<Dim>(a, b, scale).check(at_a, at_b, trial % 2 == 0 ? 0.0 : 0.2 * scale);
         }

@@ -271,7 +271,7 @@ BOOST_AUTO_TEST_CASE(an_extruded_polygon_pair_gives_the_gaps_and_normals_of_the_
         const auto p = random_geometry::corners<2>(g, 6, 1.0);
         const auto q = random_geometry::corners<2>(g, 5, 1.0);
         talus::Pose<2> at;
-        at.position = random_geometry::uniform(g, 1.6, 2.2) * random_geometry::direction<2>(g);
+        at.position = random_geometry::displacement<2>(g, 1.6, 2.2);
         const double angle = random_geometry::uniform(g, -3.0, 3.0);
         at.rotation = talus::Rotation<2>(angle);
         talus::Pose<3> lifted;
@@ -335,8 +335,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(coinciding_shapes_give_finite_contacts, D, dimensi
     random_geometry::Generator g(13);
     for (int a = 0; a < 4; ++a)
         for (int b = 0; b < 4; ++b) {
-            const auto found = contacts<Dim>(random_geometry::convex_shape<Dim>(g, a, 1.0), {},
-                                             random_geometry::convex_shape<Dim>(g, b, 1.0));
+            const auto shape_a = random_geometry::convex_shape<Dim>(g, a, 1.0);
+            const auto shape_b = random_geometry::convex_shape<Dim>(g, b, 1.0);
+            const auto found = contacts<Dim>(shape_a, {}, shape_b);
             BOOST_CHECK(!found.empty());
             for (const auto& c : found) {
                 BOOST_CHECK(std::isfinite(c.gap) && c.point.allFinite() && c.gap < 0.0);

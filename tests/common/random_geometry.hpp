@@ -26,10 +26,17 @@ talus::Vector<Dim> direction(Generator& g) {
     return d.normalized();
 }
 
+/// In any direction. (Compilers differ in which of two draws of one expression is made first.)
+template <int Dim>
+talus::Vector<Dim> displacement(Generator& g, double least, double most) {
+    const double length = uniform(g, least, most);
+    return length * direction<Dim>(g);
+}
+
 template <int Dim>
 talus::Pose<Dim> pose(Generator& g, double reach) {
     talus::Pose<Dim> p;
-    p.position = uniform(g, 0.0, reach) * direction<Dim>(g);
+    p.position = displacement<Dim>(g, 0.0, reach);
     talus::AngularVector<Dim> spin;
     for (int k = 0; k < spin.size(); ++k) spin[k] = uniform(g, -3.0, 3.0);
     p.rotation = talus::Rotation<Dim>::exp(spin);
@@ -58,8 +65,10 @@ std::vector<talus::Vector<Dim>> corners(Generator& g, int count, double scale) {
 template <int Dim>
 talus::AnyShape<Dim> convex_shape(Generator& g, int kind, double scale) {
     if (kind == 0) return talus::Ball<Dim>(scale * uniform(g, 0.5, 1.0));
-    if (kind == 1)
-        return talus::Capsule<Dim>(scale * uniform(g, 0.3, 1.0), scale * uniform(g, 0.2, 0.6));
+    if (kind == 1) {
+        const double half_length = uniform(g, 0.3, 1.0);
+        return talus::Capsule<Dim>(scale * half_length, scale * uniform(g, 0.2, 0.6));
+    }
     if (kind == 2) {
         talus::Vector<Dim> h;
         for (int k = 0; k < Dim; ++k) h[k] = scale * uniform(g, 0.3, 1.0);

@@ -114,8 +114,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(places_are_wrapped_into_the_cell, D, dimensions) {
     const talus::PeriodicCell<Dim> cell(lattice);
     random_geometry::Generator g(3);
     for (int k = 0; k < 100; ++k) {
-        const talus::Vector<Dim> x =
-            random_geometry::uniform(g, 0.0, 50.0) * random_geometry::direction<Dim>(g);
+        const talus::Vector<Dim> x = random_geometry::displacement<Dim>(g, 0.0, 50.0);
         const talus::Vector<Dim> s = talus::inverted(lattice).inverse * cell.wrapped(x);
         const talus::Vector<Dim> way = talus::inverted(lattice).inverse * (x - cell.wrapped(x));
         for (int d = 0; d < Dim; ++d) {

@@ -351,7 +351,7 @@ double mismatch(const talus::StepData<Dim, Law>& data) {
 template <class Types, int Dim>
 talus::Simulation<Dim, Types> sheared_press(const typename Types::Law& law, double shear) {
     talus::Simulation<Dim, Types> sim(law, {.h = 1e-3});
-    random_geometry::Generator g(7);
+    random_geometry::Generator g(11);
     constexpr int side = Dim == 2 ? 4 : 3;
     M<Dim> lattice = 0.21 * side * M<Dim>::Identity();
     lattice(0, 1) = 0.15;
@@ -361,8 +361,10 @@ talus::Simulation<Dim, Types> sheared_press(const typename Types::Law& law, doub
                 V<Dim> s = (1.0 / side) * (i * V<Dim>::Unit(0) + j * V<Dim>::Unit(1));
                 s += (Dim == 3 ? k / double{side} : 0.0) * V<Dim>::Unit(Dim - 1);
                 for (int d = 0; d < Dim; ++d) s[d] += static_cast<double>(g() % 5) - 2.0;
-                sim.system().add(talus::Ball<Dim>{random_geometry::uniform(g, 0.085, 0.1)}, 1000.0,
-                                 {lattice * s, {}}, {0.2 * random_geometry::direction<Dim>(g), {}});
+                const double radius = random_geometry::uniform(g, 0.085, 0.1);
+                const V<Dim> velocity = 0.2 * random_geometry::direction<Dim>(g);
+                sim.system().add(talus::Ball<Dim>{radius}, 1000.0, {lattice * s, {}},
+                                 {velocity, {}});
             }
     sim.system().set_cell(Cell<Dim>(lattice));
     auto drive = Drive<Dim>::pressure(2e3, 20.0);
@@ -429,10 +431,10 @@ struct Rolling : talus::SimulationTypes<Dim> {
 BOOST_AUTO_TEST_CASE_TEMPLATE(shear_and_friction_in_a_skewed_cell, D, dimensions) {
     constexpr int Dim = D::value;
     auto sim = sheared_press<talus::SimulationTypes<Dim>, Dim>(experiment::law<Dim>(0.5), 300.0);
-    const M<Dim> stress = shear_press<talus::SimulationTypes<Dim>, Dim>(sim, 1200);
+    const M<Dim> stress = shear_press<talus::SimulationTypes<Dim>, Dim>(sim, 1600);
     BOOST_TEST(sim.system().cell()->lattice()(0, 1) != 0.15);
     for (int d = 0; d < Dim; ++d) BOOST_TEST(std::abs(stress(d, d) / 2e3 + 1.0) < 0.05);
-    BOOST_TEST(std::abs(stress(0, 1) / 300.0 - 1.0) < 0.2);
+    BOOST_TEST(std::abs(stress(0, 1) / 300.0 - 1.0) < 0.05);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(rolling_friction_in_a_skewed_cell, D, dimensions) {
