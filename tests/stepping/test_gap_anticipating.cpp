@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/dimensions.hpp"
+#include "common/effort.hpp"
 #include "common/random.hpp"
 #include "experiment.hpp"
 
@@ -260,7 +261,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_box_that_lands_at_a_slant_keeps_its_speed_along_
     BOOST_TEST_MESSAGE("seed " << seed);
     std::mt19937 rng(seed);
     for (double h : {1.0 / 60.0, 1e-2, 1e-3})
-        for (int k = 0; k < (h < 5e-3 ? 10 : 40); ++k) {
+        for (int k = 0; k < (h < 5e-3 ? repetitions(10, 2) : repetitions(40, 10)); ++k) {
             auto sim = anticipating<Dim>(0.0, h);
             const double v = random_input::uniform(rng, 5.0, 20.0);
             const double slant = random_input::uniform(rng, 0.35, 1.2);
