@@ -4,8 +4,8 @@
 #include <talus/law/cohesive.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/law/rolling_coulomb.hpp>
+#include <talus/linear/dense_solve.hpp>
 
-#include <Eigen/LU>
 
 #include <cmath>
 #include <tuple>
@@ -57,7 +57,7 @@ std::vector<talus::Vector<3>> enumerated(const talus::RollingCoulomb<3>& law,
             };
             saturate(1, slide, law.mu);
             saturate(2, roll, law.mu_r);
-            const talus::Vector<3> r = system.fullPivLu().solve(right);
+            const talus::Vector<3> r(talus::solved_dense(system, right));
             const talus::Vector<3> u = p.velocity(r);
             const bool allowed = r[0] > 0.0 && std::abs(r[1]) <= law.mu * r[0] * (1 + 1e-14) &&
                                  std::abs(r[2]) <= law.mu_r * r[0] * (1 + 1e-14);

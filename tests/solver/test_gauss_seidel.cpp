@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/law/any_law.hpp>
 #include <talus/law/bilateral.hpp>
+#include <talus/linear/dense_solve.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
@@ -224,7 +225,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(frictionless_solution_is_the_tangent_cone_projecti
                     system.row(i) = Eigen::VectorXd::Unit(g.rows(), i).transpose();
                     right[i] = 0.0;
                 }
-            const Eigen::VectorXd p = system.fullPivLu().solve(right);
+            const Eigen::VectorXd p = talus::solved_dense(system, right);
             // Rounding of an ill-conditioned system, relative to what the solution is made of.
             const double rounding = 1e-12 * (1.0 + w.norm()) * (1.0 + p.norm());
             if (p.minCoeff() < -rounding || (w * p + b).minCoeff() < -rounding) continue;
