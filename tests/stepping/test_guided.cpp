@@ -211,15 +211,18 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_pin_holds_a_body_on_a_rail_across_it, D, dimensi
     BOOST_TEST(std::abs(system.bodies.position[body][Dim - 1]) < 1e-6);
 }
 
+/// With the law for which talus::compiled has all solvers.
 template <int Dim>
 struct AnySolverTypes : talus::SimulationTypes<Dim> {
-    using Solver = talus::AnySolver<Dim, talus::DefaultLaw<Dim>>;
+    using Law = talus::Coulomb<Dim>;
+    using Solver = talus::AnySolver<Dim, Law>;
 };
 
 /// A piston on a box that stands on the floor, between walls that it touches.
 template <int Dim>
-void a_piston_hands_its_load_on(talus::AnySolver<Dim, talus::DefaultLaw<Dim>> solver) {
-    talus::Simulation<Dim, AnySolverTypes<Dim>> sim(law<Dim>(0.3), {.h = 1e-3}, std::move(solver));
+void a_piston_hands_its_load_on(typename AnySolverTypes<Dim>::Solver solver) {
+    talus::Simulation<Dim, AnySolverTypes<Dim>> sim(talus::Coulomb<Dim>{.mu = 0.3}, {.h = 1e-3},
+                                                    std::move(solver));
     auto& system = sim.system();
     system.gravity = -g * up<Dim>();
     const auto floor = system.add_obstacle(talus::HalfSpace<Dim>(up<Dim>(), 0.0));
@@ -245,7 +248,7 @@ void a_piston_hands_its_load_on(talus::AnySolver<Dim, talus::DefaultLaw<Dim>> so
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_solver_bears_a_piston, D, dimensions) {
     constexpr int Dim = D::value;
-    using Law = talus::DefaultLaw<Dim>;
+    using Law = talus::Coulomb<Dim>;
     for (const talus::SolverName& name : talus::solver_names<Dim, Law>()) {
         if (name.name == "enumeration") continue;  // for the smallest problems
         BOOST_TEST_CONTEXT(name.name) {
