@@ -2,11 +2,11 @@
 #pragma once
 
 #include <talus/lagrangian/evaluation.hpp>
+#include <talus/lagrangian/small_lu.hpp>
 #include <talus/lagrangian/step_data.hpp>
 #include <talus/lagrangian/step_params.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -102,13 +102,14 @@ class FreeVelocity {
         constexpr double done = 1e-15, run_away = 1e6;
         FreeVelocityReport& report = data.free_report;
         report.status = FreeVelocityStatus::iteration_limit;
-        lu_.compute(matrix_);
+        lu_.factor(matrix_);
         residual_ = data.h * data.force;
         best_ = data.free;  // the paper's
         data.free = data.begin;
         double last = 0.0, least = std::numeric_limits<double>::infinity(), size = reach_;
         for (int matrices = 1; report.iterations < most;) {
-            change_ = lu_.solve(residual_);
+            change_ = residual_;
+            lu_.solve(change_);
             const double change = data.factor.norm(change_);
             ++report.iterations;
             if (!(change <= run_away * reach_)) {
@@ -132,7 +133,7 @@ class FreeVelocity {
             }
             if (stands && matrices < most_matrices) {
                 differentiate(evaluation, system, data, middle_);
-                lu_.compute(matrix_);
+                lu_.factor(matrix_);
                 ++matrices;
                 last = std::numeric_limits<double>::infinity();
             }
@@ -160,7 +161,7 @@ class FreeVelocity {
     double largest_ = 0.0, scale_ = 0.0, reach_ = 0.0, resolution_ = 0.0;
     Coordinates moved_, middle_, best_, force_, change_, residual_;
     typename Types::MassMatrix matrix_;
-    Eigen::PartialPivLU<typename Types::MassMatrix> lu_;
+    SmallLu<Types::dof> lu_;
 };
 
 }  // namespace talus
