@@ -30,7 +30,7 @@ class Quaternion {
     /// Of the rotation with this matrix [Shoemake1987].
     static Quaternion of_matrix(const Matrix<3>& m) {
         Quaternion q;
-        const double trace = m.trace();
+        const double trace = m(0, 0) + (m(1, 1) + m(2, 2));
         if (trace > 0.0) {
             const double twice_w = std::sqrt(trace + 1.0), f = 0.5 / twice_w;
             q.c_ = {(m(2, 1) - m(1, 2)) * f, (m(0, 2) - m(2, 0)) * f, (m(1, 0) - m(0, 1)) * f,
