@@ -74,6 +74,10 @@ class SmallMatrix : public Eigen::MatrixBase<SmallMatrix<Rows, Cols, Real>>,
         each([&](int i) { r.at(i) = x; });
         return r;
     }
+    /// As Eigen's functions ask for it.
+    static auto Constant(Index rows, Index cols, Real x) {
+        return OfEigen::Constant(rows, cols, x);
+    }
     static SmallMatrix Unit(Index k) requires(is_vector) {
         SmallMatrix r = Zero();
         r.data_[k] = Real(1);

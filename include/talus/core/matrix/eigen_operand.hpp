@@ -35,6 +35,8 @@ template <int OuterStride, int InnerStride>
 class Stride;
 template <class PlainObject, int Options, class Strides>
 class Map;
+template <class Operation, class PlainObject>
+class CwiseNullaryOp;
 
 namespace internal {
 
@@ -42,6 +44,8 @@ template <class T>
 struct traits;
 template <class T>
 struct evaluator;
+template <class Scalar>
+struct scalar_constant_op;
 
 }  // namespace internal
 }  // namespace Eigen
@@ -105,6 +109,8 @@ class Eigen::DenseBase<talus::SmallMatrix<Rows, Cols, Real>>
     using StorageIndex = std::ptrdiff_t;
     using PlainObject = talus::detail::EigenMatrix<Rows, Cols, Real>;
     using PlainMatrix = PlainObject;
+    using ConstantReturnType =
+        Eigen::CwiseNullaryOp<Eigen::internal::scalar_constant_op<Real>, PlainObject>;
     using Base = PlainObject;  ///< whose sizes an Eigen::Map checks
     /// Expressions hold it by value: it may be one that a function returned.
     using Nested = const talus::SmallMatrix<Rows, Cols, Real>;

@@ -89,8 +89,13 @@ class MatrixPart : public SmallMatrix<Rows, Cols, Real> {
     auto row(Index i) const { return Value::row(i); }
     auto col(Index j) const { return Value::col(j); }
     auto diagonal() const { return Value::diagonal(); }
-    auto eigen() const { return Value::eigen(); }
-    auto array() const { return Value::array(); }
+    /// The components in the matrix, for Eigen: these may change.
+    auto eigen() const {
+        constexpr bool is_row = Rows == 1 && Cols != 1;
+        using Strides = Eigen::Stride<is_row ? Cols * Outer : Outer, is_row ? Outer : Inner>;
+        return Eigen::Map<typename Value::OfEigen, 0, Strides>(first_);
+    }
+    auto array() const { return eigen().array(); }
 
   private:
     Real* first_;
