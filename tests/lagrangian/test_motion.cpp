@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/lagrangian/simulation.hpp>
 
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>

@@ -61,6 +61,10 @@ class SmallMatrix : public Eigen::MatrixBase<SmallMatrix<Rows, Cols, Real>>,
     explicit SmallMatrix(const T* numbers) {
         each([&](int i) { at(i) = numbers[i]; });
     }
+    /// A row of a column, and a column of a row.
+    SmallMatrix(const Transposed& x) requires(is_vector&& Rows != Cols) {
+        each([&](int i) { at(i) = x.data()[i]; });
+    }
     /// Any expression of Eigen's, evaluated.
     template <class D>
     requires detail::FitsInto<D, Rows, Cols> SmallMatrix(const Eigen::EigenBase<D>& other) {
@@ -178,10 +182,6 @@ class SmallMatrix : public Eigen::MatrixBase<SmallMatrix<Rows, Cols, Real>>,
     Real dot(const SmallMatrix& o) const requires(is_vector) {
         return detail::sum_over<Size>([&](int i) { return at(i) * o.at(i); });
     }
-    template <int R, int C>
-    requires(is_vector&& R == Cols && C == Rows && R != C) Real
-        dot(const SmallMatrix<R, C, Real>& o)
-    const { return dot(o.transpose()); }
     Real squaredNorm() const {
         return detail::sum_over<Size>([&](int i) { return at(i) * at(i); });
     }

@@ -61,11 +61,14 @@ inline constexpr bool is_small_matrix<SmallMatrix<Rows, Cols, Real>> = true;
 template <class D>
 concept EigenExpression = !is_small_matrix<D>;
 
-/// Those that can have as many rows and columns; Eigen says -1 for any number.
+/// Those of which a number of rows or columns may be `wanted`; Eigen says -1 for any.
+constexpr bool may_be(int number, int wanted) { return number == wanted || number == -1; }
+/// Those that can have as many rows and columns, or, of vectors, columns and rows.
 template <class D, int Rows, int Cols>
 concept FitsInto = EigenExpression<D> &&
-                   (int(D::RowsAtCompileTime) == Rows || int(D::RowsAtCompileTime) == -1) &&
-                   (int(D::ColsAtCompileTime) == Cols || int(D::ColsAtCompileTime) == -1);
+    ((may_be(int(D::RowsAtCompileTime), Rows) && may_be(int(D::ColsAtCompileTime), Cols)) ||
+     ((Rows == 1 || Cols == 1) && may_be(int(D::RowsAtCompileTime), Cols) &&
+      may_be(int(D::ColsAtCompileTime), Rows)));
 
 /// Eigen's matrix of the same numbers in the same order.
 template <int Rows, int Cols, class Real>
