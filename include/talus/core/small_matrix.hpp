@@ -62,7 +62,9 @@ class SmallMatrix : public Eigen::MatrixBase<SmallMatrix<Rows, Cols, Real>>,
         each([&](int i) { at(i) = numbers[i]; });
     }
     /// A row of a column, and a column of a row.
-    SmallMatrix(const Transposed& x) requires(is_vector&& Rows != Cols) {
+    template <int R, int C>
+    requires(is_vector&& R == Cols && C == Rows && R != C)
+        SmallMatrix(const SmallMatrix<R, C, Real>& x) {
         each([&](int i) { at(i) = x.data()[i]; });
     }
     /// Any expression of Eigen's, evaluated.
