@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "peer_siconos.hpp"
 
+#include <Eigen/Core>
+
 #include <FrictionContactProblem.h>
 #include <Friction_cst.h>
 #include <NonSmoothDrivers.h>

@@ -7,6 +7,8 @@
 // Sample run:  examples/run 11_woodpecker
 #include <talus/lagrangian/simulation.hpp>
 
+#include <Eigen/Core>
+
 #include <cstdio>
 
 struct Woodpecker {

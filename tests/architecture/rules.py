@@ -13,7 +13,8 @@ ALGEBRA = {"core", "law", "problem", "linear", "solver", "solver/sweeps", "solve
 # What the rooms of `solver` may know of its top: what a solver is, and what it reports.
 SOLVER = {"core", "law", "problem", "solver/concepts", "solver/report"}
 LAYERS = {
-    "core": set(),
+    "core/matrix": {"core/small_matrix"},
+    "core": {"core/matrix"},
     "spatial": {"core"},
     "law": {"core"},
     "problem": {"core", "law"},

@@ -3,6 +3,7 @@
 #include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
 #include <set>

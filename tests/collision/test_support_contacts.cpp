@@ -5,6 +5,7 @@
 #include <talus/core/column.hpp>
 #include <talus/geometry/any_shape.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include "common/dimensions.hpp"

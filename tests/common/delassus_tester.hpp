@@ -5,6 +5,7 @@
 #include <talus/problem/concepts.hpp>
 #include <talus/problem/contact_problem.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <vector>

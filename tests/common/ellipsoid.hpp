@@ -4,6 +4,8 @@
 #include <talus/geometry/aabb.hpp>
 #include <talus/spatial/pose.hpp>
 
+#include <Eigen/Core>
+
 /// Ellipse or ellipsoid, as a user would add it: by its support mapping alone.
 template <int Dim>
 struct Ellipsoid {

@@ -3,6 +3,7 @@
 
 #include <talus/problem/residual.hpp>
 
+#include <Eigen/SparseCore>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>

@@ -58,8 +58,8 @@ struct RandomProblem {
             for (int j = 0; j < Dim; ++j)
                 if (i != 1 || j != 0) p.inverse_mass.cell(i, j) = random.log_uniform(0.1, 10.0);
         for (std::size_t c = 0; c < p.jacobian.contact_count(); ++c)
-            p.jacobian.cell_lever.push_back(
-                c % 3 == 2 ? talus::Vector<Dim>(talus::Vector<Dim>::Zero()) : random.normal<Dim>());
+            p.jacobian.cell_lever.push_back(c % 3 == 2 ? talus::Vector<Dim>::Zero()
+                                                       : talus::Vector<Dim>(random.normal<Dim>()));
     }
     talus::AngularMatrix<Dim> inverse_inertia(RandomBlocks& random) const {
         constexpr int n = talus::rotation_dof<Dim>;

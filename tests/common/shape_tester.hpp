@@ -3,6 +3,7 @@
 
 #include <talus/geometry/principal_shape.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 // The oracle is Eigen: the same expressions on its matrices of any size, compiled once for all of
 // these.
+#include <talus/core/instantiate.hpp>
 #include <talus/core/small_matrix.hpp>
 
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "common/random.hpp"
 
@@ -122,6 +125,127 @@ BOOST_AUTO_TEST_CASE(arithmetic_is_eager) {
     static_assert(std::is_same_v<decltype(a.cross(b)), V> && sizeof(V) == 3 * sizeof(double));
     const auto sum = [] { return V(1.0, 2.0, 3.0) + V(1.0, 1.0, 1.0); }();
     BOOST_TEST((sum == V(2.0, 3.0, 4.0)));
+}
+
+/// Of a matrix that may change they reach the matrix, of a constant one and of a part they are
+/// values.
+BOOST_AUTO_TEST_CASE(parts_are_those_of_eigen_and_assignments_reach_the_matrix) {
+    std::mt19937 rng(5);
+    for (int k = 0; k < 20; ++k) {
+        auto m = random_matrix<5, 5>(rng);
+        const auto other = random_matrix<2, 3>(rng);
+        const auto v = random_matrix<5, 1>(rng);
+        Eigen::MatrixXd x = m;
+        const auto both = [&](const auto& change) {
+            change(m);
+            change(x);
+            check_same(m, x);
+        };
+        both([&](auto& a) { a.template block<2, 3>(1, 2) = other; });
+        both([&](auto& a) { a.template topRows<2>() *= 3.0; });
+        both([&](auto& a) { a.row(3) = v; });
+        both([&](auto& a) { a.col(1) += v; });
+        both([&](auto& a) { a.diagonal().array() += 2.0; });
+        both([&](auto& a) { a.template bottomRightCorner<2, 2>().setIdentity(); });
+        both([&](auto& a) { a.row(0).swap(a.row(4)); });
+        both([&](auto& a) { a.template leftCols<2>() = a.template rightCols<2>().eval(); });
+        both([&](auto& a) { a.row(1)[2] = 7.0; });
+        both([&](auto& a) { a.row(2) << 1.0, 2.0, 3.0, 4.0, 5.0; });
+        both([&](auto& a) { a.row(2) -= a.col(2).transpose(); });
+        check_same(std::as_const(m).diagonal(), x.diagonal());
+        check_same(std::as_const(m).block<3, 2>(2, 1), x.block<3, 2>(2, 1));
+        BOOST_TEST(std::abs(m.row(1).dot(v) - x.row(1).dot(v)) <= 30.0 * rounding);
+        BOOST_TEST(std::abs(m.col(0).norm() - x.col(0).norm()) <= 30.0 * rounding);
+        auto w = v;
+        Eigen::VectorXd y = w;
+        w.tail<2>() = 2.0 * w.head<2>();
+        y.tail<2>() = (2.0 * y.head<2>()).eval();
+        w.segment<3>(1).setZero();
+        y.segment<3>(1).setZero();
+        check_same(w, y);
+    }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(determinants_are_those_of_eigen, S, sizes) {
+    constexpr int n = S::value;
+    std::mt19937 rng(6);
+    for (int k = 0; k < 20; ++k) {
+        const auto m = random_matrix<n, n>(rng);
+        const Eigen::MatrixXd x = m;
+        BOOST_TEST(std::abs(m.determinant() - x.determinant()) <= 10.0 * rounding);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(some_vector_at_a_right_angle) {
+    std::mt19937 rng(7);
+    for (int k = 0; k < 20; ++k) {
+        const auto a = random_matrix<2, 1>(rng);
+        BOOST_TEST((a.unitOrthogonal() == Eigen::Vector2d(a).unitOrthogonal()));
+        auto b = random_matrix<3, 1>(rng);
+        if (k % 2) b *= 1e-20;
+        if (k % 3) b.head<2>() *= 1e-14;
+        check_same(b.unitOrthogonal(), Eigen::Vector3d(b).unitOrthogonal());
+    }
+}
+
+/// As an operand: on the right of Eigen's expressions, on the left, and of assignments to parts.
+BOOST_AUTO_TEST_CASE(it_is_an_operand_of_eigens_expressions) {
+    std::mt19937 rng(8);
+    const auto m = random_matrix<3, 3>(rng);
+    const auto v = random_matrix<3, 1>(rng);
+    const Eigen::MatrixXd x = m, dense = random_matrix<5, 3>(rng);
+    const Eigen::VectorXd y = v;
+    check_same(dense * v, dense * y);
+    check_same(dense * m, dense * x);
+    check_same(m * dense.transpose(), x * dense.transpose());
+    check_same(v + y, 2.0 * y);
+    check_same(y - 2.0 * v, -y);
+    check_same(m * v.asDiagonal(), x * y.asDiagonal());
+    check_same(Eigen::MatrixXd(v.asDiagonal()) * m, y.asDiagonal() * x);
+    check_same(x.cwiseProduct(m), x.cwiseProduct(x));
+    check_same(m.inverse() * m, Eigen::Matrix3d::Identity());
+    check_same(x.partialPivLu().solve(v), m.partialPivLu().solve(y));
+    check_same((m.array() > 0.0).select(m, 0.0), x.cwiseMax(0.0));
+    BOOST_TEST(std::abs(y.dot(v) - v.dot(y)) <= rounding);
+    BOOST_TEST((m == x && x == m && v != 2.0 * y));
+    Eigen::VectorXd big = Eigen::VectorXd::Zero(6);
+    big.segment<3>(2) = v;
+    big.tail(3) += m * v;
+    big.head<3>().noalias() -= m * y;
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(6);
+    expected.segment<3>(2) = y;
+    expected.tail(3) += x * y;
+    expected.head<3>() -= x * y;
+    check_same(big, expected);
+    const auto changed = [](Eigen::Ref<Eigen::Vector3d> a) { a *= 2.0; };
+    auto w = v;
+    changed(w);
+    check_same(w, 2.0 * y);
+    // An expression holds it by value.
+    const auto sum = y + (v + v);
+    check_same(sum, 3.0 * y);
+}
+
+/// What is written down of Eigen without including it.
+BOOST_AUTO_TEST_CASE_TEMPLATE(its_constants_are_eigens, S, sizes) {
+    const auto check = [](auto matrix) {
+        using M = decltype(matrix);
+        using E = typename M::OfEigen;
+        BOOST_TEST(int(M::Flags) == (int(E::Flags) & ~int(Eigen::NestByRefBit)));
+        BOOST_TEST(int(M::InnerSizeAtCompileTime) == int(E::InnerSizeAtCompileTime));
+        BOOST_TEST(int(M::OuterStrideAtCompileTime) == int(E::OuterStrideAtCompileTime));
+        BOOST_TEST(int(M::NumDimensions) == int(E::NumDimensions));
+        BOOST_TEST(M::outerSize() == E().outerSize());
+        static_assert(sizeof(M) == E::SizeAtCompileTime * sizeof(double));
+        static_assert(std::is_same_v<typename M::PlainObject, typename E::PlainObject>);
+        static_assert(std::is_trivially_copyable_v<M>);
+    };
+    check(talus::SmallMatrix<S::value, 1>());
+    check(talus::SmallMatrix<1, S::value>());
+    check(talus::SmallMatrix<S::value, S::value>());
+    check(talus::SmallMatrix<2, S::value>());
+    static_assert(talus::detail::eigen_array_alignment == EIGEN_MAX_STATIC_ALIGN_BYTES);
+    static_assert(std::max(talus::detail::eigen_alignment, 16) == EIGEN_DEFAULT_ALIGN_BYTES);
 }
 
 BOOST_AUTO_TEST_CASE(eigen_takes_and_gives_it) {

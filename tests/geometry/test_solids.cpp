@@ -2,6 +2,7 @@
 #include <talus/geometry/any_shape.hpp>
 #include <talus/geometry/superellipsoid.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <functional>

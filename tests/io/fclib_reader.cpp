@@ -3,6 +3,8 @@
 // usage: fclib_reader FILE    writes a small problem to FILE and reads it with FCLib's own code
 #include <talus/io/problem_file.hpp>
 
+#include <Eigen/Core>
+
 #include <cstdio>
 #include <span>
 #include <string>

@@ -2,6 +2,7 @@
 #include <talus/geometry/any_shape.hpp>
 #include <talus/io/series/movie_series.hpp>
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include <talus/problem/delassus_product.hpp>
 #include <talus/problem/residual.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>

@@ -3,6 +3,7 @@
 #include <talus/problem/residual.hpp>
 #include <talus/solver/automatic.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // A steady step allocates nothing. Counts every operator new of this program.
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include "common/allocation_counter.hpp"

@@ -4,6 +4,7 @@
 #include <talus/geometry/half_space.hpp>
 #include <talus/stepping/simulation.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>

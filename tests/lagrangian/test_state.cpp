@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // A run with stops makes the bits of one without.
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <string>

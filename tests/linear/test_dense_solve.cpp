@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/linear/dense_solve.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 BOOST_AUTO_TEST_SUITE(dense_solve)

@@ -3,6 +3,7 @@
 #include <talus/linear/elimination_tree.hpp>
 #include <talus/linear/nested_dissection.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>

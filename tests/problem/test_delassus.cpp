@@ -3,6 +3,8 @@
 #include <talus/problem/delassus_product.hpp>
 #include <talus/problem/delassus_sparse.hpp>
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -6,6 +6,7 @@
 #include <talus/geometry/convex_polytope.hpp>
 #include <talus/stepping/step_queries.hpp>
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <talus/sample/random_scene.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include "common/dimensions.hpp"

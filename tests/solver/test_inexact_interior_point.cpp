@@ -2,6 +2,7 @@
 #include <talus/solver/cones/inexact_interior_point.hpp>
 
 #include <Eigen/Dense>
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>

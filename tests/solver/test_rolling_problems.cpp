@@ -3,6 +3,7 @@
 #include <talus/problem/matrix_problem.hpp>
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>

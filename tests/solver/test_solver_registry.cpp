@@ -2,6 +2,7 @@
 #include <talus/law/bilateral.hpp>
 #include <talus/solver/any_solver.hpp>
 
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>

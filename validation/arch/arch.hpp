@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <vector>

@@ -10,6 +10,8 @@
 #include <talus/stepping/moreau_midpoint.hpp>
 #include <talus/stepping/step_hooks.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>

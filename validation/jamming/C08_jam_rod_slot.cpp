@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <Eigen/Core>
+
 #include "jamming.hpp"
 
 namespace validation {

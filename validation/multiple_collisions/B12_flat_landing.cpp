@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <Eigen/Core>
+
 #include "multiple_collisions.hpp"
 
 namespace validation {

@@ -3,8 +3,6 @@
 
 #include <talus/core/version.hpp>
 
-#include <Eigen/Core>
-
 /// Names a template instance that the library talus::compiled holds, below the template and outside
 /// of all namespaces: TALUS_IN_PLANE for one of the plane, TALUS_IN_SPACE for one of space. Without
 /// that library both say nothing, and the compiler makes what a file uses. With it (its CMake
@@ -45,12 +43,40 @@
 
 namespace talus::detail {
 
+/// How Eigen aligns memory, by its own rule [bytes]: it follows the vector instructions that a file
+/// is compiled for and Eigen's settings. Known without Eigen, and the same whether a file includes
+/// it before or after.
+#if defined(EIGEN_DONT_ALIGN)
+inline constexpr int eigen_alignment = 0;
+#elif defined(EIGEN_MAX_ALIGN_BYTES)
+inline constexpr int eigen_alignment = EIGEN_MAX_ALIGN_BYTES;
+#elif defined(EIGEN_DONT_VECTORIZE)
+inline constexpr int eigen_alignment = 0;
+#elif defined(__AVX512F__)
+inline constexpr int eigen_alignment = 64;
+#elif defined(__AVX__)
+inline constexpr int eigen_alignment = 32;
+#else
+inline constexpr int eigen_alignment = 16;
+#endif
+/// How it aligns its arrays.
+#if defined(EIGEN_DONT_ALIGN) || defined(EIGEN_DONT_ALIGN_STATICALLY)
+inline constexpr int eigen_array_alignment = 0;
+#elif defined(EIGEN_MAX_STATIC_ALIGN_BYTES)
+inline constexpr int eigen_array_alignment =
+    EIGEN_MAX_STATIC_ALIGN_BYTES < eigen_alignment ? EIGEN_MAX_STATIC_ALIGN_BYTES : eigen_alignment;
+#elif defined(__i386__) || defined(__x86_64__) || defined(__arm__) || defined(__aarch64__) || \
+    defined(__powerpc__) || defined(__mips__)
+inline constexpr int eigen_array_alignment = eigen_alignment;
+#else
+inline constexpr int eigen_array_alignment = 0;
+#endif
+
 /// What makes layouts and memory differ between files that include the same headers: the version,
-/// the alignment of Eigen's arrays and of its memory, which follow the vector instructions that a
-/// file is compiled for, and the debug mode of the standard library. The library defines `tag` for
-/// its own alone: the linker then names what another file was compiled for. (`used` and `retain`,
-/// as no code asks for it: compiler and linker leave out what nothing uses, and the question with
-/// it.)
+/// the alignment of Eigen's arrays and of its memory, and the debug mode of the standard library.
+/// The library defines `tag` for its own alone: the linker then names what another file was
+/// compiled for. (`used` and `retain`, as no code asks for it: compiler and linker leave out what
+/// nothing uses, and the question with it.)
 template <int Version, int ArrayAlignment, int MemoryAlignment, bool DebugStandardLibrary>
 struct CompiledFor {
     static const int tag;
@@ -62,7 +88,7 @@ inline constexpr bool debug_standard_library = false;
 #endif
 using CompiledForThis =
     CompiledFor<10000 * TALUS_VERSION_MAJOR + 100 * TALUS_VERSION_MINOR + TALUS_VERSION_PATCH,
-                EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_DEFAULT_ALIGN_BYTES, debug_standard_library>;
+                eigen_array_alignment, eigen_alignment, debug_standard_library>;
 #if defined(TALUS_COMPILE_FUNCTIONS)
 template <>
 const int CompiledForThis::tag = 1;

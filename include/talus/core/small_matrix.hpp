@@ -1,91 +1,77 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/Core>
+#include <talus/core/matrix/arithmetic.hpp>
+#include <talus/core/matrix/eigen_operand.hpp>
+#include <talus/core/matrix/parts_of_matrix.hpp>
 
+#include <cassert>
 #include <cmath>
 #include <concepts>
-#include <type_traits>
+#include <cstddef>
+#include <initializer_list>
 
 namespace talus {
 
-template <int Rows, int Cols, class Real>
-class SmallMatrix;
+template <class Matrix>
+class RowFiller;
 
-}  // namespace talus
-
-/// So that Eigen::Map and Eigen::Ref take a SmallMatrix for the Eigen matrix that it is.
-template <int Rows, int Cols, class Real>
-struct Eigen::internal::traits<talus::SmallMatrix<Rows, Cols, Real>>
-    : Eigen::internal::traits<Eigen::Matrix<Real, Rows, Cols>> {};
-template <int Rows, int Cols, class Real>
-struct Eigen::internal::evaluator<talus::SmallMatrix<Rows, Cols, Real>>
-    : Eigen::internal::evaluator<Eigen::Matrix<Real, Rows, Cols>> {
-    using Eigen::internal::evaluator<Eigen::Matrix<Real, Rows, Cols>>::evaluator;
-};
-
-namespace talus {
-
-namespace detail {
-
-/// Calls f(0) ... f(N - 1). The first three calls are written out, so that the components of small
-/// vectors live in registers at every level of optimisation.
-template <int N, class F>
-[[gnu::always_inline]] inline constexpr void for_each_index(const F& f) {
-    f(0);
-    if constexpr (N > 1) f(1);
-    if constexpr (N > 2) f(2);
-    for (int i = 3; i < N; ++i) f(i);
-}
-
-/// f(0) + ... + f(N - 1), added from the left.
-template <int N, class F>
-[[gnu::always_inline]] inline constexpr auto sum_over(const F& f) {
-    auto sum = f(0);
-    if constexpr (N > 1) sum += f(1);
-    if constexpr (N > 2) sum += f(2);
-    for (int i = 3; i < N; ++i) sum += f(i);
-    return sum;
-}
-
-/// A factor that a matrix of T takes: a fraction of whole numbers is not one.
-template <class S, class T>
-concept ScalarFor = std::floating_point<T> && std::is_arithmetic_v<S>;
-
-}  // namespace detail
-
-#ifdef EIGEN_DEFAULT_TO_ROW_MAJOR
-#error "talus needs Eigen's usual order of storage, by columns: EIGEN_DEFAULT_TO_ROW_MAJOR is set"
-#endif
-
-/// An Eigen matrix of a few components whose own arithmetic is eager: a + b is a matrix, not an
-/// expression. Eigen gives every expression a type with some two hundred members; for three
-/// components they save nothing, and they were most of what a compiler instantiated for a program
-/// of talus. A value also outlives its operands, so `auto c = a + b;` is safe.
+/// A matrix of a few components, by columns, whose arithmetic is eager: a + b is a matrix, not an
+/// expression, so `auto c = a + b;` is safe. Zero unless told otherwise: in `Twist{v, {}}` and
+/// `Pose{x, {}}` empty braces mean what they seem to mean.
 ///
-/// It remains an Eigen matrix: it takes and gives Eigen's expressions, and what is not declared
-/// here (blocks, decompositions, arrays, comma initialisation) is Eigen's own, lazy as ever: a
-/// block of a result refers to a value that is gone, so `auto h = (a + b).head<2>();` needs an
-/// `.eval()` where Eigen's expression would not. Unlike Eigen's it is zero unless told otherwise:
-/// in `Twist{v, {}}` and `Pose{x, {}}` empty braces mean what they seem to mean.
+/// To programs that include Eigen it is one of Eigen's matrices in all but name: it is made of
+/// Eigen's expressions, is an operand of them and of assignments to Eigen's matrices, and has the
+/// members of those that are of use for a few components. `eigen()` gives the rest, on the same
+/// numbers. Members that need Eigen name a template of Eigen's that is not complete without it. It
+/// is not derived of one of Eigen's, since each of those has some two hundred members, and so has
+/// every expression: they were most of what a compiler instantiated for a program of talus.
 template <int Rows, int Cols, class Real = double>
-class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
+class SmallMatrix : public Eigen::MatrixBase<SmallMatrix<Rows, Cols, Real>>,
+                    public PartsOfMatrix<Rows, Cols, Real> {
   public:
-    using Base = Eigen::Matrix<Real, Rows, Cols>;
+    using Index = std::ptrdiff_t;
     using Transposed = SmallMatrix<Cols, Rows, Real>;
-    using Base::Base;
-    SmallMatrix() {
+    using OfEigen = detail::EigenMatrix<Rows, Cols, Real>;
+    static constexpr std::size_t alignment = detail::matrix_alignment<Rows, Cols, Real>;
+    static constexpr int Size = Rows * Cols;
+    static constexpr bool is_vector = Rows == 1 || Cols == 1;
+
+    SmallMatrix() noexcept {
         each([&](int i) { at(i) = Real(0); });
     }
-    SmallMatrix(const Base& other) : Base(other) {}
-    /// Any expression of Eigen's, evaluated.
-    template <class Derived>
-    SmallMatrix& operator=(const Eigen::MatrixBase<Derived>& other) {
-        Base::operator=(other);
-        return *this;
+    explicit SmallMatrix(Real x) requires(Size == 1) : data_{x} {}
+    SmallMatrix(Real x, Real y) requires(is_vector&& Size == 2) : data_{x, y} {}
+    SmallMatrix(Real x, Real y, Real z) requires(is_vector&& Size == 3) : data_{x, y, z} {}
+    SmallMatrix(Real x, Real y, Real z, Real w) requires(is_vector&& Size == 4)
+        : data_{x, y, z, w} {}
+    template <class... S>
+    requires(is_vector&& Size > 4 && sizeof...(S) == Size - 1) SmallMatrix(Real x, S... more)
+        : data_{x, static_cast<Real>(more)...} {}
+    /// Row by row, or the one row or column that a vector is.
+    SmallMatrix(std::initializer_list<std::initializer_list<Real>> rows) {
+        Index i = 0;
+        for (const auto& row : rows) {
+            Index j = 0;
+            for (const Real& x : row) is_vector ? (*this)(i + j++) = x : (*this)(i, j++) = x;
+            ++i;
+        }
     }
-
-    SmallMatrix eval() const { return *this; }
+    template <std::same_as<Real> T>
+    explicit SmallMatrix(const T* numbers) {
+        each([&](int i) { at(i) = numbers[i]; });
+    }
+    /// A row of a column, and a column of a row.
+    template <int R, int C>
+    requires(is_vector&& R == Cols && C == Rows && R != C)
+        SmallMatrix(const SmallMatrix<R, C, Real>& x) {
+        each([&](int i) { at(i) = x.data()[i]; });
+    }
+    /// Any expression of Eigen's, evaluated.
+    template <class D>
+    requires detail::FitsInto<D, Rows, Cols> SmallMatrix(const Eigen::EigenBase<D>& other) {
+        eigen() = other.derived();
+    }
 
     static SmallMatrix Zero() { return Constant(Real(0)); }
     static SmallMatrix Ones() { return Constant(Real(1)); }
@@ -94,22 +80,89 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
         each([&](int i) { r.at(i) = x; });
         return r;
     }
-    static SmallMatrix Unit(Eigen::Index k) requires(Cols == 1) {
+    /// As Eigen's functions ask for it.
+    static auto Constant(Index rows, Index cols, Real x) {
+        return OfEigen::Constant(rows, cols, x);
+    }
+    static SmallMatrix Unit(Index k) requires(is_vector) {
         SmallMatrix r = Zero();
-        r.data()[k] = Real(1);
+        r.data_[k] = Real(1);
         return r;
     }
-    static SmallMatrix Identity() requires(Rows == Cols) {
+    static SmallMatrix UnitX() { return Unit(0); }
+    static SmallMatrix UnitY() { return Unit(1); }
+    static SmallMatrix UnitZ() { return Unit(2); }
+    static SmallMatrix Identity() {
         SmallMatrix r = Zero();
-        for (int i = 0; i < Rows; ++i) r.at(i * (Rows + 1)) = Real(1);
+        for (int i = 0; i < Rows && i < Cols; ++i) r.at(i * (Rows + 1)) = Real(1);
         return r;
     }
+    static SmallMatrix Random() { return SmallMatrix(OfEigen::Random()); }
 
+    Real* data() { return data_; }
+    const Real* data() const { return data_; }
+    Real* begin() requires(is_vector) { return data_; }
+    const Real* begin() const requires(is_vector) { return data_; }
+    Real* end() requires(is_vector) { return data_ + Size; }
+    const Real* end() const requires(is_vector) { return data_ + Size; }
+    [[gnu::always_inline]] Real& operator[](Index i) requires(is_vector) { return (*this)(i); }
+    [[gnu::always_inline]] const Real& operator[](Index i) const requires(is_vector) {
+        return (*this)(i);
+    }
+    [[gnu::always_inline]] Real& operator()(Index i) {
+        assert(i >= 0 && i < Size);
+        return data_[i];
+    }
+    [[gnu::always_inline]] const Real& operator()(Index i) const {
+        assert(i >= 0 && i < Size);
+        return data_[i];
+    }
+    [[gnu::always_inline]] Real& operator()(Index i, Index j) {
+        assert(i >= 0 && i < Rows && j >= 0 && j < Cols);
+        return data_[i + j * Rows];
+    }
+    [[gnu::always_inline]] const Real& operator()(Index i, Index j) const {
+        assert(i >= 0 && i < Rows && j >= 0 && j < Cols);
+        return data_[i + j * Rows];
+    }
+    Real& x() { return (*this)(0); }
+    Real& y() { return (*this)(1); }
+    Real& z() { return (*this)(2); }
+    Real& w() { return (*this)(3); }
+    const Real& x() const { return (*this)(0); }
+    const Real& y() const { return (*this)(1); }
+    const Real& z() const { return (*this)(2); }
+    const Real& w() const { return (*this)(3); }
+    // The same by names that Eigen's functions use.
+    Real& coeffRef(Index i) { return data_[i]; }
+    Real& coeffRef(Index i, Index j) { return data_[i + j * Rows]; }
+    const Real& coeff(Index i) const { return data_[i]; }
+    const Real& coeff(Index i, Index j) const { return data_[i + j * Rows]; }
+
+    SmallMatrix eval() const { return *this; }
+    SmallMatrix& noalias() { return *this; }
+    template <class T>
+    SmallMatrix<Rows, Cols, T> cast() const {
+        SmallMatrix<Rows, Cols, T> r;
+        each([&](int i) { r.data()[i] = static_cast<T>(at(i)); });
+        return r;
+    }
     SmallMatrix& setZero() { return *this = Zero(); }
+    SmallMatrix& setOnes() { return *this = Ones(); }
     SmallMatrix& setConstant(Real x) { return *this = Constant(x); }
+    SmallMatrix& setIdentity() { return *this = Identity(); }
+    void fill(Real x) { setConstant(x); }
+    void swap(SmallMatrix& o) {
+        const SmallMatrix kept = *this;
+        *this = o;
+        o = kept;
+    }
+    /// m << a, b, c, d; row by row, of numbers and matrices.
+    template <class X>
+    RowFiller<SmallMatrix> operator<<(const X& x) {
+        return RowFiller<SmallMatrix>(*this, x);
+    }
 
-    using Base::operator+=;
-    using Base::operator-=;
     SmallMatrix& operator+=(const SmallMatrix& o) {
         each([&](int i) { at(i) += o.at(i); });
         return *this;
@@ -122,24 +175,44 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
         each([&](int i) { at(i) *= s; });
         return *this;
     }
+    SmallMatrix& operator*=(const SmallMatrix<Cols, Cols, Real>& o) { return *this = *this * o; }
     SmallMatrix& operator/=(Real s) {
         each([&](int i) { at(i) /= s; });
         return *this;
     }
 
-    using Base::dot;
-    Real dot(const SmallMatrix& o) const requires(Cols == 1) {
-        return detail::sum_over<Rows * Cols>([&](int i) { return at(i) * o.at(i); });
+    Real dot(const SmallMatrix& o) const requires(is_vector) {
+        return detail::sum_over<Size>([&](int i) { return at(i) * o.at(i); });
     }
     Real squaredNorm() const {
-        return detail::sum_over<Rows * Cols>([&](int i) { return at(i) * at(i); });
+        return detail::sum_over<Size>([&](int i) { return at(i) * at(i); });
     }
     Real norm() const { return std::sqrt(squaredNorm()); }
     Real sum() const {
-        return detail::sum_over<Rows * Cols>([&](int i) { return at(i); });
+        return detail::sum_over<Size>([&](int i) { return at(i); });
+    }
+    Real mean() const { return sum() / Real(Size); }
+    Real prod() const {
+        Real product = at(0);
+        for (int i = 1; i < Size; ++i) product *= at(i);
+        return product;
     }
     Real trace() const requires(Rows == Cols) {
         return detail::sum_over<Rows>([&](int i) { return at(i * (Rows + 1)); });
+    }
+    Real determinant() const requires(Rows == Cols) {
+        const SmallMatrix& m = *this;
+        const auto minor = [&](int a, int b, int c) {
+            return m(0, a) * (m(1, b) * m(2, c) - m(1, c) * m(2, b));
+        };
+        if constexpr (Rows == 1)
+            return at(0);
+        else if constexpr (Rows == 2)
+            return m(0, 0) * m(1, 1) - m(1, 0) * m(0, 1);
+        else if constexpr (Rows == 3)
+            return minor(0, 1, 2) - minor(1, 0, 2) + minor(2, 0, 1);
+        else
+            return eigen().determinant();
     }
     /// Of length 1, or itself if it is zero; for components between 1e-150 and 1e150, whose squares
     /// are numbers.
@@ -148,8 +221,7 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
         return square > Real(0) ? *this / std::sqrt(square) : *this;
     }
     void normalize() { *this = normalized(); }
-    using Base::cross;
-    SmallMatrix cross(const SmallMatrix& o) const requires(Rows == 3 && Cols == 1) {
+    SmallMatrix cross(const SmallMatrix& o) const requires(is_vector&& Size == 3) {
         return {at(1) * o.at(2) - at(2) * o.at(1), at(2) * o.at(0) - at(0) * o.at(2),
                 at(0) * o.at(1) - at(1) * o.at(0)};
     }
@@ -161,21 +233,19 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
             for (int j = 0; j < Cols; ++j) r.data()[j + i * Cols] = at(i + j * Rows);
         return r;
     }
+    // NOLINTNEXTLINE(readability-const-return-type)
+    const Transposed adjoint() const { return transpose(); }
 
     /// Column k, by value.
-    SmallMatrix<Rows, 1, Real> column(Eigen::Index k) const {
+    SmallMatrix<Rows, 1, Real> column(Index k) const {
         SmallMatrix<Rows, 1, Real> r;
-        for (int i = 0; i < Rows; ++i) r.data()[i] = this->data()[i + k * Rows];
+        for (int i = 0; i < Rows; ++i) r.data()[i] = data_[i + k * Rows];
         return r;
     }
-    void set_column(Eigen::Index k, const SmallMatrix<Rows, 1, Real>& x) {
-        for (int i = 0; i < Rows; ++i) this->data()[i + k * Rows] = x.data()[i];
+    void set_column(Index k, const SmallMatrix<Rows, 1, Real>& x) {
+        for (int i = 0; i < Rows; ++i) data_[i + k * Rows] = x.data()[i];
     }
 
-    using Base::cwiseMax;
-    using Base::cwiseMin;
-    using Base::cwiseProduct;
-    using Base::cwiseQuotient;
     SmallMatrix cwiseProduct(const SmallMatrix& o) const {
         SmallMatrix r;
         each([&](int i) { r.at(i) = at(i) * o.at(i); });
@@ -201,14 +271,18 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
         each([&](int i) { r.at(i) = std::abs(at(i)); });
         return r;
     }
+    SmallMatrix cwiseAbs2() const { return cwiseProduct(*this); }
+    SmallMatrix cwiseSqrt() const {
+        SmallMatrix r;
+        each([&](int i) { r.at(i) = std::sqrt(at(i)); });
+        return r;
+    }
     SmallMatrix cwiseInverse() const {
         SmallMatrix r;
         each([&](int i) { r.at(i) = Real(1) / at(i); });
         return r;
     }
 
-    using Base::maxCoeff;
-    using Base::minCoeff;
     Real minCoeff() const {
         Real least = at(0);
         for (int i = 1; i < Rows * Cols; ++i) least = at(i) < least ? at(i) : least;
@@ -230,13 +304,41 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
         each([&](int i) { found = found || std::isnan(at(i)); });
         return found;
     }
-    using Base::isZero;
     /// Whether all components are zero exactly.
     bool is_zero() const {
         bool zero = true;
         each([&](int i) { zero = zero && at(i) == Real(0); });
         return zero;
     }
+    bool isZero(Real most = Real(1e-12)) const {
+        bool zero = true;
+        each([&](int i) { zero = zero && std::abs(at(i)) <= most; });
+        return zero;
+    }
+    /// Whether they differ by less than `part` of the smaller.
+    bool isApprox(const SmallMatrix& o, Real part = Real(1e-12)) const {
+        const Real a = squaredNorm(), b = o.squaredNorm();
+        return (*this - o).squaredNorm() <= part * part * (b < a ? b : a);
+    }
+    /// Some vector of length 1 at a right angle.
+    SmallMatrix unitOrthogonal() const requires(is_vector && (Size == 2 || Size == 3)) {
+        if constexpr (Size == 2) {
+            return SmallMatrix(-at(1), at(0)).normalized();
+        } else {
+            // (-y, x, 0), unless x and y are nothing beside z.
+            const Real nothing = Real(1e-12) * std::abs(at(2));
+            if (std::abs(at(0)) > nothing || std::abs(at(1)) > nothing) {
+                const Real f = Real(1) / std::sqrt(at(0) * at(0) + at(1) * at(1));
+                return {-at(1) * f, at(0) * f, Real(0)};
+            }
+            const Real f = Real(1) / std::sqrt(at(1) * at(1) + at(2) * at(2));
+            return {Real(0), -at(2) * f, at(1) * f};
+        }
+    }
+
+    /// The same numbers as a matrix of Eigen's: for what follows, which is Eigen's own, and more.
+    auto eigen() { return detail::EigenMap<OfEigen, alignment>(data_); }
+    auto eigen() const { return detail::EigenMap<const OfEigen, alignment>(data_); }
 
   private:
     template <int, int, class>
@@ -244,66 +346,14 @@ class SmallMatrix : public Eigen::Matrix<Real, Rows, Cols> {
 
     template <class F>
     static constexpr void each(const F& f) {
-        detail::for_each_index<Rows * Cols>(f);
+        detail::for_each_index<Size>(f);
     }
-    Real& at(int i) { return this->data()[i]; }
-    const Real& at(int i) const { return this->data()[i]; }
+    Real& at(int i) { return data_[i]; }
+    const Real& at(int i) const { return data_[i]; }
+
+    alignas(alignment) Real data_[Size];
 };
 
-template <int R, int C, class T>
-SmallMatrix<R, C, T> operator+(const SmallMatrix<R, C, T>& a, const SmallMatrix<R, C, T>& b) {
-    SmallMatrix<R, C, T> r;
-    detail::for_each_index<R * C>([&](int i) { r.data()[i] = a.data()[i] + b.data()[i]; });
-    return r;
-}
-template <int R, int C, class T>
-SmallMatrix<R, C, T> operator-(const SmallMatrix<R, C, T>& a, const SmallMatrix<R, C, T>& b) {
-    SmallMatrix<R, C, T> r;
-    detail::for_each_index<R * C>([&](int i) { r.data()[i] = a.data()[i] - b.data()[i]; });
-    return r;
-}
-template <int R, int C, class T>
-SmallMatrix<R, C, T> operator-(const SmallMatrix<R, C, T>& a) {
-    SmallMatrix<R, C, T> r;
-    detail::for_each_index<R * C>([&](int i) { r.data()[i] = -a.data()[i]; });
-    return r;
-}
-template <class S, int R, int C, class T>
-requires detail::ScalarFor<S, T> SmallMatrix<R, C, T>
-operator*(S s, const SmallMatrix<R, C, T>& a) {
-    SmallMatrix<R, C, T> r;
-    detail::for_each_index<R * C>([&](int i) { r.data()[i] = static_cast<T>(s) * a.data()[i]; });
-    return r;
-}
-template <class S, int R, int C, class T>
-requires detail::ScalarFor<S, T> SmallMatrix<R, C, T>
-operator*(const SmallMatrix<R, C, T>& a, S s) { return s * a; }
-template <class S, int R, int C, class T>
-requires detail::ScalarFor<S, T> SmallMatrix<R, C, T>
-operator/(const SmallMatrix<R, C, T>& a, S s) {
-    SmallMatrix<R, C, T> r;
-    detail::for_each_index<R * C>([&](int i) { r.data()[i] = a.data()[i] / static_cast<T>(s); });
-    return r;
-}
-/// Column by column, each a sum of columns of a: the compiler then packs neighbours in memory.
-template <int R, int K, int C, class T>
-SmallMatrix<R, C, T> operator*(const SmallMatrix<R, K, T>& a, const SmallMatrix<K, C, T>& b) {
-    SmallMatrix<R, C, T> r;
-    for (int j = 0; j < C; ++j) {
-        T* column = r.data() + j * R;
-        const T* factors = b.data() + j * K;
-        detail::for_each_index<R>([&](int i) { column[i] = a.data()[i] * factors[0]; });
-        for (int k = 1; k < K; ++k)
-            detail::for_each_index<R>(
-                [&](int i) { column[i] += a.data()[i + k * R] * factors[k]; });
-    }
-    return r;
-}
-template <int R, int C, class T>
-bool operator==(const SmallMatrix<R, C, T>& a, const SmallMatrix<R, C, T>& b) {
-    bool equal = true;
-    detail::for_each_index<R * C>([&](int i) { equal = equal && a.data()[i] == b.data()[i]; });
-    return equal;
-}
-
 }  // namespace talus
+
+#include <talus/core/matrix/part.hpp>

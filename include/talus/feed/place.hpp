@@ -79,8 +79,8 @@ Rotation<Dim> random_rotation(Random& random) {
         const double a = random.uniform(0.0, 2.0 * std::numbers::pi);
         const double b = random.uniform(0.0, 2.0 * std::numbers::pi);
         return Rotation<Dim>(
-            Eigen::Quaterniond(std::sqrt(u) * std::cos(b), std::sqrt(1.0 - u) * std::sin(a),
-                               std::sqrt(1.0 - u) * std::cos(a), std::sqrt(u) * std::sin(b)));
+            Quaternion(std::sqrt(u) * std::cos(b), std::sqrt(1.0 - u) * std::sin(a),
+                       std::sqrt(1.0 - u) * std::cos(a), std::sqrt(u) * std::sin(b)));
     }
 }
 

@@ -6,7 +6,7 @@
 #include <talus/spatial/inertia.hpp>
 #include <talus/spatial/pose.hpp>
 
-#include <Eigen/LU>
+#include <cmath>
 
 namespace talus {
 

@@ -4,6 +4,8 @@
 #include <talus/io/hdf5_reader.hpp>
 #include <talus/io/problem_content.hpp>
 
+#include <Eigen/SparseCore>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

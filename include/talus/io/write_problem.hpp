@@ -5,6 +5,8 @@
 #include <talus/io/hdf5_writer.hpp>
 #include <talus/io/problem_content.hpp>
 
+#include <Eigen/SparseCore>
+
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>

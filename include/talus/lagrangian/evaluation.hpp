@@ -4,6 +4,8 @@
 #include <talus/core/input.hpp>
 #include <talus/lagrangian/concepts.hpp>
 
+#include <Eigen/Core>
+
 #include <cmath>
 #include <cstddef>
 #include <string>

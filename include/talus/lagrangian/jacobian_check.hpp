@@ -5,6 +5,8 @@
 #include <talus/lagrangian/concepts.hpp>
 #include <talus/lagrangian/evaluation.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

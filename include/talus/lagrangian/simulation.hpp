@@ -12,6 +12,8 @@
 #include <talus/solver/sweeps/gauss_seidel.hpp>
 #include <talus/stepping/step_hooks.hpp>
 
+#include <Eigen/Core>
+
 #include <cmath>
 #include <concepts>
 #include <cstdint>

@@ -7,6 +7,8 @@
 #include <talus/problem/assembled_problem.hpp>
 #include <talus/solver/report.hpp>
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <vector>
 

@@ -121,10 +121,9 @@ class DelassusSparse {
 
     /// H_ik^T restricted to body k: velocity of the contact per twist of the body.
     template <int Dim>
-    static Eigen::Matrix<double, Dim, twist_dof<Dim>> velocity_map(
-        const ContactJacobian<Dim>& jacobian, std::size_t contact, BodyIndex body) {
-        Eigen::Matrix<double, Dim, twist_dof<Dim>> map =
-            Eigen::Matrix<double, Dim, twist_dof<Dim>>::Zero();
+    static SmallMatrix<Dim, twist_dof<Dim>> velocity_map(const ContactJacobian<Dim>& jacobian,
+                                                         std::size_t contact, BodyIndex body) {
+        SmallMatrix<Dim, twist_dof<Dim>> map;
         const auto side = [&](const Vector<Dim>& arm, double sign) {
             map.template leftCols<Dim>() += sign * jacobian.frame[contact];
             map.template rightCols<rotation_dof<Dim>>() +=
@@ -164,8 +163,7 @@ void DelassusSparse<Rows>::assemble(const ContactJacobian<Dim>& jacobian,
         blocks.push_back({i, i, Matrix<Dim>::Zero()});
     for (std::size_t k = 0; k < contacts_of.size(); ++k) {
         if (inverse_mass.linear[k] == 0.0 && inverse_mass.angular[k].is_zero()) continue;
-        Eigen::Matrix<double, twist_dof<Dim>, twist_dof<Dim>> mobility;
-        mobility.setZero();
+        Matrix<twist_dof<Dim>> mobility;
         for (int d = 0; d < Dim; ++d) mobility(d, d) = inverse_mass.translation(k)[d];
         mobility.template bottomRightCorner<rotation_dof<Dim>, rotation_dof<Dim>>() =
             inverse_mass.angular[k];

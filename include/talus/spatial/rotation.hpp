@@ -3,8 +3,7 @@
 
 #include <talus/core/number_record.hpp>
 #include <talus/core/types.hpp>
-
-#include <Eigen/Geometry>
+#include <talus/spatial/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -77,8 +76,11 @@ requires SpaceDimension<Dim> &&(Dim == 2) class Rotation<Dim> {
 template <int Dim>
 requires SpaceDimension<Dim> &&(Dim == 3) class Rotation<Dim> {
   public:
-    Rotation() noexcept : q_(Eigen::Quaterniond::Identity()) {}
-    explicit Rotation(const Eigen::Quaterniond& q) : q_(q.normalized()) {}
+    Rotation() noexcept = default;
+    explicit Rotation(const Quaternion& q) : q_(q.normalized()) {}
+    /// From a quaternion of someone else's, such as Eigen's.
+    template <QuaternionLike Q>
+    explicit Rotation(const Q& q) : Rotation(Quaternion(q)) {}
 
     static Rotation identity() { return {}; }
     /// Rotation reached in unit time at constant `spin`: turns by |spin| [rad] about it.
@@ -87,14 +89,11 @@ requires SpaceDimension<Dim> &&(Dim == 3) class Rotation<Dim> {
         // sin(x/2)/x, by its series where the quotient loses digits: the next term is below 1e-17.
         const double s = angle > 1e-4 ? std::sin(0.5 * angle) / angle : 0.5 - angle * angle / 48.0;
         Rotation r;
-        r.q_.w() = std::cos(0.5 * angle);
-        r.q_.x() = s * spin[0];
-        r.q_.y() = s * spin[1];
-        r.q_.z() = s * spin[2];
+        r.q_ = {std::cos(0.5 * angle), s * spin[0], s * spin[1], s * spin[2]};
         return r;
     }
     /// Rotation with the given matrix (assumed orthonormal, determinant 1).
-    static Rotation from_matrix(const Matrix<3>& m) { return Rotation(Eigen::Quaterniond(m)); }
+    static Rotation from_matrix(const Matrix<3>& m) { return Rotation(Quaternion::of_matrix(m)); }
 
     /// The shortest spin whose `exp` is this rotation [rad].
     AngularVector<3> log() const {
@@ -103,13 +102,13 @@ requires SpaceDimension<Dim> &&(Dim == 3) class Rotation<Dim> {
         const double half = std::atan2(s, sign * q_.w());
         return (s > 0.0 ? 2.0 * half / s : 2.0) * sign * axis();
     }
-    const Eigen::Quaterniond& quaternion() const { return q_; }
+    const Quaternion& quaternion() const { return q_; }
     Rotation inverse() const {
         Rotation r;
         r.q_ = q_.conjugate();
         return r;
     }
-    Matrix<3> matrix() const { return q_.toRotationMatrix(); }
+    Matrix<3> matrix() const { return q_.matrix(); }
 
     Vector<3> operator*(const Vector<3>& v) const { return turned(axis(), v); }
     /// Inverse rotation of a vector, without forming the inverse.
@@ -137,20 +136,21 @@ requires SpaceDimension<Dim> &&(Dim == 3) class Rotation<Dim> {
     void write(NumberRecord& out) const { out.array(q_.coeffs()); }
     static Rotation read(NumberRecordReader& in) {
         Rotation r;
-        for (int k = 0; k < 4; ++k) r.q_.coeffs()[k] = in.real();
+        const double x = in.real(), y = in.real(), z = in.real(), w = in.real();
+        r.q_ = {w, x, y, z};
         require_unit("rotation", r.q_.norm());
         return r;
     }
 
   private:
     /// The vector part of the quaternion: along the axis, of length sin(angle / 2).
-    Vector<3> axis() const { return {q_.x(), q_.y(), q_.z()}; }
+    Vector<3> axis() const { return q_.imaginary(); }
     Vector<3> turned(const Vector<3>& axis, const Vector<3>& v) const {
         const Vector<3> twice = 2.0 * axis.cross(v);
         return v + q_.w() * twice + axis.cross(twice);
     }
 
-    Eigen::Quaterniond q_;
+    Quaternion q_;
 };
 
 }  // namespace talus

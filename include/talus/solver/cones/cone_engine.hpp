@@ -9,6 +9,8 @@
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/cones/cone_system.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -12,8 +12,6 @@
 #include <talus/solver/sweeps/anderson_memory.hpp>
 #include <talus/solver/sweeps/sweep_kernel.hpp>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -379,7 +377,7 @@ void AcceleratedGaussSeidel<Dim, Law>::combine(std::span<const Vector<Dim>> x, d
     for (std::size_t i = 0; i < n; ++i) {
         const double scale = 1.0 / std::sqrt(kernel_.measure().effective_mass(i));
         for (std::size_t d = 0; d < Dim; ++d) {
-            const auto row = static_cast<Eigen::Index>(d);
+            const auto row = static_cast<std::ptrdiff_t>(d);
             memory_.image()[Dim * i + d] = scale * x[i][row];
             memory_.increment()[Dim * i + d] = scale * (x[i][row] - y_[i][row]);
         }
@@ -390,7 +388,7 @@ void AcceleratedGaussSeidel<Dim, Law>::combine(std::span<const Vector<Dim>> x, d
     }
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t d = 0; d < Dim; ++d)
-            y_[i][static_cast<Eigen::Index>(d)] =
+            y_[i][static_cast<std::ptrdiff_t>(d)] =
                 memory_.image()[Dim * i + d] * std::sqrt(kernel_.measure().effective_mass(i));
 }
 
