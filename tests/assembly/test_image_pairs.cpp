@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_ends_on_one_side_meets_bodies_where_they_are,
     half.low[0] = 5.0;
     const std::vector<Box> boxes{at(7.3), half, at(0.2), at(-6.5),
                                  Box{V::Constant(-infinity), V::Constant(infinity)}};
-    std::vector<bool> is_free{true, false, true, true, false};
+    talus::Column<bool> is_free{true, false, true, true, false};
     talus::BruteForce<Dim> broad;
     talus::ImagePairs<Dim> pairs;
     talus::Column<talus::CandidatePair> found;

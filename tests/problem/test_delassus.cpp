@@ -2,6 +2,7 @@
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/delassus_product.hpp>
 #include <talus/problem/delassus_sparse.hpp>
+#include <talus/problem/rigid_body_operators.hpp>
 
 #include <Eigen/Core>
 

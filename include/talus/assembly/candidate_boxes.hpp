@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace talus {
 
@@ -18,8 +17,8 @@ struct CandidateBoxes {
     Column<Aabb<Dim>> box;
     Column<Vector<Dim>> position;
     Column<Rotation<Dim>> rotation;
-    Column<double> room;     ///< widening of each box [m]
-    std::vector<bool> free;  ///< no obstacle; two obstacles are no pair
+    Column<double> room;  ///< widening of each box [m]
+    Column<bool> free;    ///< no obstacle; two obstacles are no pair
 
     /// Whether some body may have left its box since: by its motion, with the `reach` that it needs
     /// now. Such candidates are no longer all.
@@ -42,13 +41,13 @@ template <int Dim>
 requires SpaceDimension<Dim>
 struct PairSearch {
     void* broad;
-    void (*find)(void* broad, std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free,
+    void (*find)(void* broad, std::span<const Aabb<Dim>> boxes, std::span<const bool> is_free,
                  Column<CandidatePair>& pairs);
 
     template <BroadPhase<Dim> Broad>
     explicit PairSearch(Broad& search)
         : broad(&search),
-          find([](void* by, std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free,
+          find([](void* by, std::span<const Aabb<Dim>> boxes, std::span<const bool> is_free,
                   Column<CandidatePair>& pairs) {
               static_cast<Broad*>(by)->find_pairs(
                   boxes, [&](BodyIndex i) { return !is_free[static_cast<std::size_t>(i)]; }, pairs);
@@ -57,7 +56,7 @@ struct PairSearch {
 
     /// Replaces `pairs` by those of boxes that overlap, of which one at least is free. Throws
     /// input_error naming one that is no pair.
-    void operator()(std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free,
+    void operator()(std::span<const Aabb<Dim>> boxes, std::span<const bool> is_free,
                     Column<CandidatePair>& pairs) const {
         find(broad, boxes, is_free, pairs);
     }

@@ -92,8 +92,8 @@ class ContactDetection {
             contact_points<Dim>(list.shapes[a], pose_a, list.shapes[b], pose_b, margin, points_,
                                 list.routines);
         } catch (const input_error& error) {
-            throw input_error(detail::numbered("bodies", a, detail::numbered(" and", b)) + ": " +
-                              error.what());
+            throw input_error(detail::joined(
+                {detail::numbered("bodies", a, detail::numbered(" and", b)), ": ", error.what()}));
         }
         if (shifted)
             for (ContactPoint<Dim>& point : points_) point.point += half;

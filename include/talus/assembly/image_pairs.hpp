@@ -34,7 +34,7 @@ class ImagePairs {
     /// which two are no pair. Throws input_error for shifts beyond 2^31 lattice vectors, for bodies
     /// so large that 10^4 images come near, and names a pair of the broad phase that is none.
     void find(PairSearch<Dim> search, const PeriodicCell<Dim>& cell,
-              std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free,
+              std::span<const Aabb<Dim>> boxes, std::span<const bool> is_free,
               Column<CandidatePair>& pairs, Column<ImageShift>& images);
 
   private:
@@ -56,7 +56,7 @@ class ImagePairs {
     void add_images(const PeriodicCell<Dim>& cell, std::size_t count);
     void collect(const PeriodicCell<Dim>& cell, std::size_t count,
                  const Column<CandidatePair>& pairs);
-    void add_unbounded(std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free);
+    void add_unbounded(std::span<const Aabb<Dim>> boxes, std::span<const bool> is_free);
     static Vector<Dim> shift(const Matrix<Dim>& vectors, const Steps& steps) {
         Vector<Dim> sum = Vector<Dim>::Zero();
         for (int k = 0; k < Dim; ++k)
@@ -70,18 +70,18 @@ class ImagePairs {
     Column<Steps> home_;                  // from each body to its home
     Column<Vector<Dim>> place_, extent_;  // of each box, in lattice coordinates [-]
     Column<Image> image_;
-    std::vector<bool> is_free_, bounded_;
+    Column<bool> is_free_, bounded_;
     std::vector<Pair> found_;
 };
 
 template <int Dim>
 requires SpaceDimension<Dim>
 void ImagePairs<Dim>::find(PairSearch<Dim> search, const PeriodicCell<Dim>& cell,
-                           std::span<const Aabb<Dim>> boxes, const std::vector<bool>& is_free,
+                           std::span<const Aabb<Dim>> boxes, std::span<const bool> is_free,
                            Column<CandidatePair>& pairs, Column<ImageShift>& images) {
     bring_home(cell, boxes);
     add_images(cell, boxes.size());
-    is_free_ = is_free;
+    is_free_.assign(is_free);
     is_free_.resize(box_.size(), false);
     search(box_, is_free_, pairs);
     found_.clear();
@@ -225,7 +225,7 @@ void ImagePairs<Dim>::collect(const PeriodicCell<Dim>& cell, std::size_t count,
 template <int Dim>
 requires SpaceDimension<Dim>
 void ImagePairs<Dim>::add_unbounded(std::span<const Aabb<Dim>> boxes,
-                                    const std::vector<bool>& is_free) {
+                                    std::span<const bool> is_free) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         if (boxes[i].bounded() || is_empty(boxes[i])) continue;
         for (std::size_t j = 0; j < boxes.size(); ++j) {

@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace talus {
 
@@ -77,8 +76,8 @@ class StoppedMotion {
     const Bodies<Dim>* bodies_ = nullptr;
     Column<Twist<Dim>> motion_;
     Column<std::size_t> newest_;  ///< stop of each free body
-    std::vector<bool> released_;
-    std::vector<bool> changed_;  ///< the body's motion is not the free one
+    Column<bool> released_;
+    Column<bool> changed_;  ///< the body's motion is not the free one
     Column<Stop> stops_;
 };
 

@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace talus {
 
@@ -61,8 +60,8 @@ void require_no_nan(std::span<const Aabb<Dim>> boxes) {
 
 namespace detail {
 
-[[noreturn]] inline void reject_candidate(std::span<const CandidatePair> pairs, std::size_t k,
-                                          std::size_t body_count) {
+[[noreturn, gnu::cold]] inline void reject_candidate(std::span<const CandidatePair> pairs,
+                                                     std::size_t k, std::size_t body_count) {
     const auto [a, b] = pairs[k];
     const auto count = static_cast<BodyIndex>(body_count);
     const bool bodies = std::min(a, b) >= 0 && std::max(a, b) < count && a != b;
@@ -70,10 +69,9 @@ namespace detail {
                              : a > b                               ? "the smaller index first"
                              : k > 0 && !(pairs[k - 1] < pairs[k]) ? "sorted, each pair once"
                                                                    : "not both obstacles";
-    throw input_error(numbered("pair", k, " of the broad phase is (") + std::to_string(a) + ", " +
-                      std::to_string(b) +
-                      numbered("), but must be of the bodies from 0 below", body_count, ", ") +
-                      must);
+    throw input_error(
+        joined({numbered("pair", k, " of the broad phase is ("), digits_of(a), ", ", digits_of(b),
+                numbered("), but must be of the bodies from 0 below", body_count, ", "), must}));
 }
 
 }  // namespace detail
@@ -82,7 +80,7 @@ namespace detail {
 /// bodies, of which there are as many as `is_free`, the smaller index first; not sorted, or there
 /// twice; or of two obstacles. O(pairs).
 inline void require_candidates(std::span<const CandidatePair> pairs,
-                               const std::vector<bool>& is_free) {
+                               std::span<const bool> is_free) {
     std::uint64_t last = 0;  // below every pair of two bodies
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const auto a = static_cast<std::uint32_t>(pairs[k].a);  // far too large if negative

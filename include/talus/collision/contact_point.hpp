@@ -5,7 +5,7 @@
 #include <talus/core/ids.hpp>
 #include <talus/core/types.hpp>
 
-#include <algorithm>
+#include <cstddef>
 
 namespace talus {
 
@@ -28,10 +28,19 @@ struct ContactPoint {
     Vector<Dim> slide = Vector<Dim>::Zero();
 };
 
+/// By insertion, since one pair has few contacts, which mostly come in order; of many first in wide
+/// strides.
 template <int Dim>
 void sort_by_feature(Column<ContactPoint<Dim>>& points) {
-    std::sort(points.begin(), points.end(),
-              [](const auto& x, const auto& y) { return x.feature < y.feature; });
+    for (const std::size_t stride : {701u, 301u, 132u, 57u, 23u, 1u})
+        for (std::size_t i = stride; i < points.size(); ++i) {
+            if (!(points[i].feature < points[i - stride].feature)) continue;
+            const ContactPoint<Dim> point = points[i];
+            std::size_t k = i;
+            for (; k >= stride && point.feature < points[k - stride].feature; k -= stride)
+                points[k] = points[k - stride];
+            points[k] = point;
+        }
 }
 
 }  // namespace talus

@@ -54,7 +54,7 @@ struct ContactSet {
         offset.clear();
         body.clear();
     }
-    void push_back(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& c) {
+    [[gnu::noinline]] void push_back(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& c) {
         key.push_back({a, b, c.feature});
         point.push_back(c.point);
         normal.push_back(c.normal);
@@ -62,8 +62,8 @@ struct ContactSet {
         slide.push_back(c.slide);
     }
     /// With an image of b: in a periodic cell all contacts are added so.
-    void push_back(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& c, const ImageShift& image,
-                   const Vector<Dim>& to_image) {
+    [[gnu::noinline]] void push_back(BodyIndex a, BodyIndex b, const ContactPoint<Dim>& c,
+                                     const ImageShift& image, const Vector<Dim>& to_image) {
         push_back(a, b, c);
         key.back().image = image;
         offset.push_back(to_image);

@@ -38,7 +38,7 @@ struct MovingShape {
         return p;
     }
     /// The farthest point along d with the shape placed there; world axes.
-    Vector<Dim> foremost(const Vector<Dim>& d, const Pose<Dim>& placed) const {
+    [[gnu::noinline]] Vector<Dim> foremost(const Vector<Dim>& d, const Pose<Dim>& placed) const {
         return placed.point_world(shape.support(placed.rotation.transpose_times(d)));
     }
 };
@@ -253,9 +253,10 @@ TALUS_OF_PASSAGE(void)::find_faces(const MovingShape<Dim>& m, const CoreView<Dim
     for (std::size_t f = 0; f < core.face_count(); ++f) {
         if (!try_face(f, first) && routines_.own.empty()) continue;
         if (sign * core.normals[f].dot(nearest) > 1.0 - 1e-12) continue;
-        const auto beyond = [&](const ContactPoint<Dim>& c) { return try_face(f, of_other(c)); };
-        if (routines_.own.empty() && !std::all_of(present.begin() + 1, present.end(), beyond))
-            continue;
+        bool separates = true;
+        for (std::size_t c = 1; separates && c < present.size() && routines_.own.empty(); ++c)
+            separates = try_face(f, of_other(present[c]));
+        if (!separates) continue;
         const Axis axis = measured(Vector<Dim>(sign * (m.pose.rotation * core.normals[f])));
         others_ |= axis.qualifies();
         if (better(axis, best_other_)) best_other_ = axis;

@@ -3,6 +3,7 @@
 
 #include <talus/core/printable.hpp>
 
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -19,16 +20,19 @@ class precondition_error : public std::logic_error {
 /// Thrown before any state changes.
 class input_error : public std::invalid_argument {
   public:
-    explicit input_error(const std::string& message)
+    [[gnu::cold]] explicit input_error(const std::string& message)
         : std::invalid_argument(detail::printable(message)) {}
 };
 
 namespace detail {
 
-[[noreturn]] inline void fail_check(const char* expression, const char* sentence, const char* file,
-                                    int line) {
-    throw precondition_error(std::string(file) + ":" + std::to_string(line) + ": " + sentence +
-                             " [" + expression + "]");
+[[noreturn, gnu::cold]] inline void fail_check(const char* expression, const char* sentence,
+                                               const char* file, int line) {
+    char number[16];
+    std::snprintf(number, sizeof number, ":%d: ", line);
+    std::string text(file);
+    text.append(number).append(sentence);
+    throw precondition_error(text.append(" [").append(expression).append("]"));
 }
 
 }  // namespace detail

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <new>
@@ -26,12 +27,44 @@ inline void* allocate(std::size_t n, std::size_t size, std::size_t alignment) {
                ? ::operator new (n* size, std::align_val_t{alignment})
                : ::operator new(n* size);
 }
-inline void deallocate(void* place, std::size_t alignment) noexcept {
+[[gnu::noinline]] inline void deallocate(void* place, std::size_t alignment) noexcept {
     if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)
         ::operator delete (place, std::align_val_t{alignment});
     else
         ::operator delete(place);
 }
+
+/// The memory of a Column, whatever it holds: what needs no type is compiled once, and out of line,
+/// since a step has hundreds of places where a column moves or grows.
+class ColumnMemory {
+  public:
+    ColumnMemory() noexcept = default;
+    ColumnMemory(const ColumnMemory&) = delete;
+    ColumnMemory& operator=(const ColumnMemory&) = delete;
+
+  protected:
+    ~ColumnMemory() = default;
+    [[gnu::noinline]] void swap_memory(ColumnMemory& other) noexcept {
+        std::swap(begin_, other.begin_);
+        std::swap(end_, other.end_);
+        std::swap(room_, other.room_);
+    }
+    /// Moves what there is, as bytes, to room for n items; an item has that size and alignment.
+    [[gnu::noinline]] void move_bytes(std::size_t n, std::size_t size, std::size_t alignment) {
+        void* const place = allocate(n, size, alignment);
+        const auto used = static_cast<std::size_t>(bytes(end_) - bytes(begin_));
+        if (used > 0) std::memcpy(place, begin_, used);
+        deallocate(begin_, alignment);
+        begin_ = place;
+        end_ = bytes(place) + used;
+        room_ = bytes(place) + n * size;
+    }
+    static char* bytes(void* place) { return static_cast<char*>(place); }
+
+    void* begin_ = nullptr;
+    void* end_ = nullptr;
+    void* room_ = nullptr;
+};
 
 }  // namespace detail
 
@@ -41,9 +74,10 @@ inline void deallocate(void* place, std::size_t alignment) noexcept {
 /// takes a sixth off the time to compile it (bench/README.md). It is a contiguous range, so a
 /// std::span of it needs no word, and becomes a std::vector, or is made of one, where one is asked
 /// for. References and iterators are lost where a std::vector's would be. What it holds moves
-/// without an exception.
+/// without an exception, and as its bytes where it needs no destructor (so no item of that kind
+/// may know where it is).
 template <class T>
-class Column {
+class Column : private detail::ColumnMemory {
   public:
     using value_type = T;
     using iterator = T*;
@@ -57,18 +91,18 @@ class Column {
         append(list.data(), list.data() + list.size());
     }
     explicit Column(std::span<const T> items) : Column() { append(items); }
-    Column(const Column& other) : Column() { append(other.begin_, other.end_); }
+    Column(const Column& other) : Column() { append(other.begin(), other.end()); }
     Column(Column&& other) noexcept { swap(other); }
     ~Column() {
         static_assert(std::is_nothrow_move_constructible_v<T>,
                       "what a Column holds must move without an exception");
         clear();
-        release();
+        detail::deallocate(begin_, alignof(T));
     }
     Column& operator=(const Column& other) {
         if (this != &other) {
             clear();
-            append(other.begin_, other.end_);
+            append(other.begin(), other.end());
         }
         return *this;
     }
@@ -76,53 +110,51 @@ class Column {
         swap(other);
         return *this;
     }
-    operator std::vector<T>() const { return std::vector<T>(begin_, end_); }
-    void swap(Column& other) noexcept {
-        std::swap(begin_, other.begin_);
-        std::swap(end_, other.end_);
-        std::swap(room_, other.room_);
-    }
+    operator std::vector<T>() const { return std::vector<T>(begin(), end()); }
+    void swap(Column& other) noexcept { swap_memory(other); }
     friend void swap(Column& a, Column& b) noexcept { a.swap(b); }
 
-    T* data() { return begin_; }
-    const T* data() const { return begin_; }
-    T* begin() { return begin_; }
-    T* end() { return end_; }
-    const T* begin() const { return begin_; }
-    const T* end() const { return end_; }
-    std::size_t size() const { return static_cast<std::size_t>(end_ - begin_); }
-    std::size_t capacity() const { return static_cast<std::size_t>(room_ - begin_); }
+    T* data() { return begin(); }
+    const T* data() const { return begin(); }
+    T* begin() { return static_cast<T*>(begin_); }
+    T* end() { return static_cast<T*>(end_); }
+    const T* begin() const { return static_cast<const T*>(begin_); }
+    const T* end() const { return static_cast<const T*>(end_); }
+    std::size_t size() const { return static_cast<std::size_t>(end() - begin()); }
+    std::size_t capacity() const {
+        return static_cast<std::size_t>(static_cast<const T*>(room_) - begin());
+    }
     bool empty() const { return end_ == begin_; }
 
     T& operator[](std::integral auto i) {
         check(static_cast<std::size_t>(i));
-        return begin_[i];
+        return begin()[i];
     }
     const T& operator[](std::integral auto i) const {
         check(static_cast<std::size_t>(i));
-        return begin_[i];
+        return begin()[i];
     }
     T& front() { return (*this)[0]; }
     const T& front() const { return (*this)[0]; }
     T& back() { return (*this)[size() - 1]; }
     const T& back() const { return (*this)[size() - 1]; }
 
-    void clear() { end_at(begin_); }
+    void clear() { end_at(begin()); }
     /// Room for n in all, exactly.
     void reserve(std::size_t n) {
         if (n > capacity()) move_to_room_for(n);
     }
-    void resize(std::size_t n) {
+    [[gnu::noinline]] void resize(std::size_t n) {
         make_room(n);
-        for (T* const end = begin_ + n; end_ < end; ++end_) ::new (static_cast<void*>(end_)) T();
-        end_at(begin_ + n);
+        for (const T* const to = begin() + n; end() < to; end_ = end() + 1) ::new (end_) T();
+        end_at(begin() + n);
     }
-    void resize(std::size_t n, const T& value) {
+    [[gnu::noinline]] void resize(std::size_t n, const T& value) {
         // Which may be one of its own. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
         const T x = value;
         make_room(n);
-        for (T* const end = begin_ + n; end_ < end; ++end_) ::new (static_cast<void*>(end_)) T(x);
-        end_at(begin_ + n);
+        for (const T* const to = begin() + n; end() < to; end_ = end() + 1) ::new (end_) T(x);
+        end_at(begin() + n);
     }
     void assign(std::size_t n, const T& value) {
         // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
@@ -142,21 +174,21 @@ class Column {
     }
     void append(std::span<const T> items) { append(items.data(), items.data() + items.size()); }
     void push_back(T x) {
-        make_room(size() + 1);
-        ::new (static_cast<void*>(end_)) T(std::move(x));
-        ++end_;
+        if (end_ == room_) grow();
+        ::new (end_) T(std::move(x));
+        end_ = end() + 1;
     }
-    void pop_back() { end_at(end_ - 1); }
+    void pop_back() { end_at(end() - 1); }
     /// Before `at`, which is an iterator of its own.
     void insert(const T* at, T x) {
-        const std::ptrdiff_t k = at - begin_;
+        const std::ptrdiff_t k = at - begin();
         push_back(std::move(x));
-        for (T* p = end_ - 1; p != begin_ + k; --p) std::swap(*p, p[-1]);
+        for (T* p = end() - 1; p != begin() + k; --p) std::swap(*p, p[-1]);
     }
     void erase(const T* from, const T* to) {
         if (from == to) return;
-        T* kept = begin_ + (from - begin_);
-        for (T* next = begin_ + (to - begin_); next != end_; ++next) *kept++ = std::move(*next);
+        T* kept = begin() + (from - begin());
+        for (T* next = begin() + (to - begin()); next != end(); ++next) *kept++ = std::move(*next);
         end_at(kept);
     }
     void erase(const T* at) { erase(at, at + 1); }
@@ -164,19 +196,19 @@ class Column {
     /// Takes out the items for which `gone(item)` holds, and returns how many they were.
     template <class Gone>
     std::size_t erase_if(Gone&& gone) {
-        T* kept = begin_;
+        T* kept = begin();
         for (T& x : *this)
             if (!gone(std::as_const(x))) {
                 if (kept != &x) *kept = std::move(x);
                 ++kept;
             }
-        const auto erased = static_cast<std::size_t>(end_ - kept);
+        const auto erased = static_cast<std::size_t>(end() - kept);
         end_at(kept);
         return erased;
     }
     friend bool operator==(const Column& a, const Column& b) {
         bool equal = a.size() == b.size();
-        for (std::size_t i = 0; equal && i < a.size(); ++i) equal = a.begin_[i] == b.begin_[i];
+        for (std::size_t i = 0; equal && i < a.size(); ++i) equal = a.begin()[i] == b.begin()[i];
         return equal;
     }
 
@@ -189,34 +221,37 @@ class Column {
     }
     [[gnu::noinline]] void append(const T* from, const T* to) {
         make_room(size() + static_cast<std::size_t>(to - from));
-        for (; from != to; ++from, ++end_) ::new (static_cast<void*>(end_)) T(*from);
+        for (; from != to; ++from, end_ = end() + 1) ::new (end_) T(*from);
     }
     void make_room(std::size_t n) {
         if (n > capacity()) move_to_room_for(n < 2 * size() ? 2 * size() : n);
     }
-    [[gnu::noinline]] void move_to_room_for(std::size_t n) {
+    [[gnu::noinline, gnu::cold]] void grow() { move_to_room_for(empty() ? 1 : 2 * size()); }
+    void move_to_room_for(std::size_t n) {
+        if constexpr (std::is_trivially_destructible_v<T>)
+            move_bytes(n, sizeof(T), alignof(T));
+        else
+            move_one_by_one(n);
+    }
+    [[gnu::noinline]] void move_one_by_one(std::size_t n) {
         T* const place = static_cast<T*>(detail::allocate(n, sizeof(T), alignof(T)));
-        T* end = place;
-        for (T* p = begin_; p != end_; ++p, ++end) ::new (static_cast<void*>(end)) T(std::move(*p));
+        T* to = place;
+        for (T& x : *this) ::new (static_cast<void*>(to++)) T(std::move(x));
         clear();
-        release();
+        detail::deallocate(begin_, alignof(T));
         begin_ = place;
-        end_ = end;
+        end_ = to;
         room_ = place + n;
     }
-    void end_at(T* end) {
+    void end_at(T* to) {
         if constexpr (std::is_trivially_destructible_v<T>)
-            end_ = end;
+            end_ = to;
         else
-            while (end_ > end) (--end_)->~T();
+            while (end() > to) {
+                end_ = end() - 1;
+                end()->~T();
+            }
     }
-    void release() {
-        if (begin_ != nullptr) detail::deallocate(begin_, alignof(T));
-    }
-
-    T* begin_ = nullptr;
-    T* end_ = nullptr;
-    T* room_ = nullptr;
 };
 
 /// One entry for each body.

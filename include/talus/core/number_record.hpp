@@ -21,13 +21,14 @@ struct NumberRecord {
     std::vector<double> reals;
     std::vector<std::int64_t> integers;
 
-    void real(double x) { reals.push_back(x); }
+    [[gnu::noinline]] void real(double x) { reals.push_back(x); }
     /// Of any integer type; numbers from 2^63 come back as such.
     void integer(std::integral auto k) { integers.push_back(static_cast<std::int64_t>(k)); }
     /// All entries of a vector or a matrix.
     template <class Array>
     void array(const Array& x) {
-        reals.insert(reals.end(), x.data(), x.data() + x.size());
+        const auto* entries = x.data();
+        for (decltype(x.size()) k = 0; k < x.size(); ++k) real(entries[k]);
     }
     void text(std::string_view words) {
         integer(words.size());

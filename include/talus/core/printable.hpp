@@ -9,7 +9,7 @@ namespace talus::detail {
 
 /// Length of the character of UTF-8 that begins at `at`, if it is a whole one that terminals print
 /// and do not obey; 0 otherwise.
-inline std::size_t printable_length(std::string_view text, std::size_t at) {
+[[gnu::cold]] inline std::size_t printable_length(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t k) {
         return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
     };
@@ -34,7 +34,8 @@ inline std::size_t printable_length(std::string_view text, std::size_t at) {
 /// Text as it may be shown on a terminal, on one line: control characters and bytes that are no
 /// UTF-8 as \n, \t or \x1b. All else, accents too, stays. Of more than `longest` bytes the
 /// beginning.
-inline std::string printable(std::string_view text, std::size_t longest = std::string_view::npos) {
+[[gnu::cold]] inline std::string printable(std::string_view text,
+                                           std::size_t longest = std::string_view::npos) {
     constexpr const char* digits = "0123456789abcdef";
     std::string shown;
     for (std::size_t at = 0; at < text.size();) {

@@ -66,8 +66,8 @@ struct Bodies {
     /// The same; throws input_error if there is none.
     BodyIndex index(BodyId body) const {
         if (const auto found = find(body)) return *found;
-        throw input_error("body id is " + std::to_string(body.serial) +
-                          ", but must be that of a body that was not removed");
+        throw input_error(detail::joined({"body id is ", detail::digits_of(body.serial),
+                                          ", but must be that of a body that was not removed"}));
     }
 
     /// Of the body that is added next.
@@ -153,9 +153,9 @@ struct Bodies {
             const double others = moments.sum() - moments[k];
             constexpr double rounding = 1e-9;  // of moments computed by integration
             if (moments.size() == 3 && moments.allFinite() && moments[k] > others * (1 + rounding))
-                detail::reject(
-                    "moment of inertia", moments[k],
-                    "at most the sum of the other two (" + detail::text_of(others) + ")");
+                detail::reject("moment of inertia", moments[k],
+                               detail::joined({"at most the sum of the other two (",
+                                               detail::text_of(others), ")"}));
         }
     }
     BodyIndex append(double inverse_mass_, const AngularVector<Dim>& inverse_inertia_,
@@ -237,9 +237,10 @@ void require_ids_of(const Bodies<Dim>& bodies) {
         const std::int64_t id = bodies.id[i].serial;
         const std::int64_t least = i == 0 ? 0 : bodies.id[i - 1].serial + 1;
         if (id < least || id >= bodies.next_serial())
-            detail::reject(detail::numbered("id of body", i), static_cast<double>(id),
-                           "above those before it and below that of the next body, " +
-                               std::to_string(bodies.next_serial()));
+            detail::reject(
+                detail::numbered("id of body", i), static_cast<double>(id),
+                detail::joined({"above those before it and below that of the next body, ",
+                                detail::digits_of(bodies.next_serial())}));
     }
 }
 

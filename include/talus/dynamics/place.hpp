@@ -15,13 +15,27 @@ namespace talus {
 
 namespace detail {
 
-[[noreturn]] inline void reject_motion(std::size_t body, double t, std::string_view what) {
+[[noreturn, gnu::cold]] inline void reject_motion(std::size_t body, double t,
+                                                  std::string_view what) {
     throw input_error(
-        numbered("prescribed motion of body", body, " at time " + text_of(t) + std::string(what)));
+        numbered("prescribed motion of body", body, joined({" at time ", text_of(t), what})));
+}
+
+/// The twist of a motion of that resolution [s].
+[[noreturn, gnu::cold]] inline void reject_twist(std::size_t body, double t, double resolution) {
+    if (resolution > 0.0)
+        reject_motion(body, t,
+                      joined({" changes too fast for its resolution of ", text_of(resolution),
+                              " s, but must not: give of_pose a smaller one, or the twist"}));
+    reject_motion(body, t,
+                  " has a twist that is not that of its pose, but must be: give the pose alone "
+                  "(of_pose), or say that the surface moves (belt, with_surface)");
 }
 
 inline bool equal_numbers(const double* x, const double* y, std::size_t count) {
-    return std::equal(x, x + count, y);
+    bool equal = true;
+    for (std::size_t k = 0; k < count; ++k) equal = equal && x[k] == y[k];
+    return equal;
 }
 
 /// How far `x` is from the segment between two points.
@@ -83,15 +97,7 @@ void place(Bodies<Dim>& bodies, std::size_t i, const PrescribedMotion<Dim>& moti
         detail::reject_motion(i, t, " is not finite, but must be");
     if (reach > 0.0 && !motion.surface_moves() &&
         !detail::twist_belongs(motion, pose, twist, t, reach))
-        detail::reject_motion(
-            i, t,
-            motion.resolution() > 0.0
-                ? " changes too fast for its resolution of " +
-                      detail::text_of(motion.resolution()) +
-                      " s, but must not: give of_pose a smaller one, or the twist"
-                : std::string(" has a twist that is not that of its pose, but must be: give the "
-                              "pose alone (of_pose), or say that the surface moves (belt, "
-                              "with_surface)"));
+        detail::reject_twist(i, t, motion.resolution());
     bodies.position[i] = pose.position;
     bodies.rotation[i] = pose.rotation;
     bodies.velocity[i] = twist.linear;

@@ -63,7 +63,7 @@ class PrescribedMotion {
     }
 
     /// How far the shape goes between two times [s], whatever its surface does [m, rad].
-    Twist<Dim> displacement(double begin, double end) const {
+    [[gnu::noinline]] Twist<Dim> displacement(double begin, double end) const {
         const Pose<Dim> from = pose(begin), to = pose(end);
         return {to.position - from.position, (to.rotation * from.rotation.inverse()).log()};
     }

@@ -170,7 +170,7 @@ double CoulombBlock<Dim>::slip_root(double mu, double b_n, const Tangent& c) con
     const double direct = normal_ / mu - coupling_.dot(c) / c.norm();  // h is linear: its root
     if (!(mu > 0.0) || !std::isfinite(direct * scale)) return 0.0;
     const Tangent offset = stiffness_ - Tangent::Constant(stiffness_[0]);
-    if (offset[Dim - 2] == 0.0) return direct * scale;
+    if (Tangent::SizeAtCompileTime == 1 || offset[Dim - 2] == 0.0) return direct * scale;
 
     double low = stiffness_[0];
     double high = (normal_ / mu + coupling_.norm()) * scale;

@@ -13,6 +13,18 @@
 
 namespace talus {
 
+namespace detail {
+
+[[gnu::cold]] inline std::string law_of_materials(MaterialIndex i, MaterialIndex j) {
+    return joined({"law of materials (", digits_of(i), ", ", digits_of(j), ")"});
+}
+[[noreturn, gnu::cold]] inline void refuse_missing_law(MaterialIndex i, MaterialIndex j) {
+    throw input_error(
+        joined({law_of_materials(i, j), " is missing, but must be set before the pair meets"}));
+}
+
+}  // namespace detail
+
 /// The law between each pair of materials, symmetric: which surface meets which makes no
 /// difference. Pairs must be set, unless the table was given a law for all of them.
 template <std::copyable Law>
@@ -36,23 +48,18 @@ class MaterialTable {
     /// on a law that finds itself invalid.
     void set(MaterialIndex i, MaterialIndex j, const Law& law) {
         auto& entry = laws_[slot(i, j)];
-        require_valid(law, "law of materials " + pair_text(i, j));
+        require_valid(law, detail::law_of_materials(i, j));
         entry = law;
     }
     /// The law between materials i and j. Throws input_error on an index outside the table and on a
     /// pair that was never set.
     const Law& at(MaterialIndex i, MaterialIndex j) const {
         const auto& entry = laws_[slot(i, j)];
-        if (!entry)
-            throw input_error("law of materials " + pair_text(i, j) +
-                              " is missing, but must be set before the pair meets");
+        if (!entry) detail::refuse_missing_law(i, j);
         return *entry;
     }
 
   private:
-    static std::string pair_text(MaterialIndex i, MaterialIndex j) {
-        return "(" + std::to_string(i) + ", " + std::to_string(j) + ")";
-    }
     static void require_valid(const Law& law, const std::string& item) {
         if constexpr (requires { law.require_valid(item); }) law.require_valid(item);
     }

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace talus {
@@ -31,15 +32,6 @@ inline double unpaired(double x) {
 
 }  // namespace detail
 
-/// Whether every inverse inertia tensor of `m` is exactly a multiple of the identity (balls and
-/// cubes, and everything in the plane). Then DelassusProduct<Dim, double> applies.
-template <int Dim>
-bool has_scalar_inertia(const InverseMass<Dim>& m) {
-    for (const AngularMatrix<Dim>& i : m.angular)
-        if (i != AngularMatrix<Dim>::Identity() * i(0, 0)) return false;
-    return true;
-}
-
 /// W = H^T M^-1 H without W: it carries the body velocities v = M^-1 H r along, so that following
 /// one contact's impulse costs the same however many neighbours the contact has.
 ///
@@ -55,6 +47,12 @@ bool has_scalar_inertia(const InverseMass<Dim>& m) {
 template <int Dim, class Inertia = AngularMatrix<Dim>, int Rows = Dim>
 requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, double>) &&
     (Rows == Dim || Rows == rows_with_rolling<Dim>)class DelassusProduct {
+    /// A cell that a stress drives comes with tensors in space. In the plane, where they are
+    /// numbers as well, there is one operator for all problems.
+    static constexpr bool in_plane = rotation_dof<Dim> == 1;
+    static constexpr bool takes_cells = in_plane || !std::same_as<Inertia, double>;
+    static constexpr bool asks_for_cells = in_plane && std::same_as<Inertia, double>;
+
   public:
     DelassusProduct() = default;
     DelassusProduct(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass) {
@@ -159,23 +157,40 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
     }
 
     /// Row i of W r for the present impulses [m/s].
-    Vector<Rows> velocity(std::size_t i) const { return velocity(i, bodies_); }
+    [[gnu::always_inline]] Vector<Rows> velocity(std::size_t i) const {
+        return velocity(i, bodies_);
+    }
 
     /// r_i += dr.
-    void add(std::size_t i, const Vector<Rows>& dr) { add(i, dr, bodies_); }
+    [[gnu::always_inline]] void add(std::size_t i, const Vector<Rows>& dr) { add(i, dr, bodies_); }
+
+    /// What sweeps visit where no stress drives a cell. To ask for one at every visit of a contact
+    /// costs a tenth of a sweep.
+    class WithoutCell {
+      public:
+        explicit WithoutCell(DelassusProduct& w) : w_(w) {}
+        [[gnu::always_inline]] Vector<Rows> velocity(std::size_t i) const {
+            return DelassusProduct::velocity(w_.row(i), w_.bodies_);
+        }
+        [[gnu::always_inline]] void add(std::size_t i, const Vector<Rows>& dr) const {
+            DelassusProduct::add(w_.row(i), dr, w_.bodies_);
+        }
+
+      private:
+        DelassusProduct& w_;
+    };
+    WithoutCell without_cell() requires(asks_for_cells) { return WithoutCell(*this); }
+    bool has_driven_cell() const { return driven_; }
 
   private:
     static constexpr bool rolls = Rows != Dim;
-    /// A cell that a stress drives comes with tensors: to ask for it at every visit of a contact
-    /// costs a tenth of a sweep.
-    static constexpr bool takes_cells = !std::same_as<Inertia, double>;
     struct Row {
         const Matrix<Dim>& frame;
         const Vector<Dim>&arm_a, &arm_b;
         BodyIndex a, b;
         double rolling_length = 0.0;
     };
-    Row row(std::size_t i) const {
+    [[gnu::always_inline]] Row row(std::size_t i) const {
         const ContactJacobian<Dim>& j = *jacobian_;
         if constexpr (rolls)
             return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i], j.rolling_length[i]};
@@ -183,8 +198,8 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             return {j.frame[i], j.arm_a[i], j.arm_b[i], j.a[i], j.b[i]};
     }
     /// Axes are locked in the plane, where there is room for it, and beside tensors.
-    using Mobility = std::conditional_t<std::same_as<Inertia, double> && rotation_dof<Dim> != 1,
-                                        double, Vector<Dim>>;
+    using Mobility =
+        std::conditional_t<std::same_as<Inertia, double> && !in_plane, double, Vector<Dim>>;
     struct Body {
         Vector<Dim> linear;
         AngularVector<Dim> angular;
@@ -246,7 +261,7 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         return w;
     }
 
-    static Vector<Rows> velocity(const Row& c, const Column<Body>& bodies) {
+    [[gnu::always_inline]] static Vector<Rows> velocity(const Row& c, const Column<Body>& bodies) {
         const Body& a = bodies[static_cast<std::size_t>(c.a)];
         const Body& b = bodies[static_cast<std::size_t>(c.b)];
         const Vector<Dim> turning_a = cross<Dim>(a.angular, c.arm_a);
@@ -264,7 +279,8 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
                 c.rolling_length * (rolling_axes<Dim>(c.frame) * (a.angular - b.angular));
         return u;
     }
-    static void add(const Row& c, const Vector<Rows>& dr, Column<Body>& bodies) {
+    [[gnu::always_inline]] static void add(const Row& c, const Vector<Rows>& dr,
+                                           Column<Body>& bodies) {
         Vector<Dim> impulse;
         for (int d = 0; d < Dim; ++d) {
             impulse[d] = c.frame(0, d) * dr[0];
@@ -280,7 +296,7 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         }
     }
     // A driven cell stands apart and out of line: few have one, and contacts are visited often.
-    Vector<Rows> velocity(std::size_t i, const Column<Body>& bodies) const {
+    [[gnu::always_inline]] Vector<Rows> velocity(std::size_t i, const Column<Body>& bodies) const {
         Vector<Rows> u = velocity(row(i), bodies);
         if constexpr (takes_cells)
             if (driven_) subtract_cell(i, bodies, u);
@@ -293,7 +309,8 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
         for (int j = 0; j < Dim; ++j) world += lever[j] * cell_column(bodies, j).linear;
         u.template head<Dim>() -= row(i).frame * world;
     }
-    void add(std::size_t i, const Vector<Rows>& dr, Column<Body>& bodies) const {
+    [[gnu::always_inline]] void add(std::size_t i, const Vector<Rows>& dr,
+                                    Column<Body>& bodies) const {
         add(row(i), dr, bodies);
         if constexpr (takes_cells)
             if (driven_) add_to_cell(i, dr, bodies);
@@ -322,8 +339,9 @@ requires(std::same_as<Inertia, AngularMatrix<Dim>> || std::same_as<Inertia, doub
             return sum;
         }
     }
-    static void push(Body& x, double sign, const Vector<Dim>& impulse, const Vector<Dim>& arm,
-                     [[maybe_unused]] const AngularVector<Dim>* rolling = nullptr) {
+    [[gnu::always_inline]] static void push(
+        Body& x, double sign, const Vector<Dim>& impulse, const Vector<Dim>& arm,
+        [[maybe_unused]] const AngularVector<Dim>* rolling = nullptr) {
         AngularVector<Dim> turn = moment<Dim>(arm, impulse);
         if constexpr (rolls) turn += *rolling;
         for (int d = 0; d < Dim; ++d)
@@ -351,28 +369,5 @@ TALUS_MODEL(SweepableDelassus<DelassusProduct<2>, 2>);
 TALUS_MODEL(SweepableDelassus<DelassusProduct<3>, 3>);
 TALUS_MODEL(SweepableDelassus<DelassusProduct<3, double>, 3>);
 TALUS_MODEL(SweepableDelassus<DelassusProduct<2, double, 3>, 3>);
-
-/// The operators of problems of rigid bodies, which a solver keeps between solves.
-template <int Dim, int Rows = Dim>
-class RigidBodyOperators {
-  public:
-    /// Takes a new problem in, at zero impulses, keeping a reference to `jacobian`; returns f(W)
-    /// for the quicker W that applies.
-    template <class F>
-    decltype(auto) with(const ContactJacobian<Dim>& jacobian, const InverseMass<Dim>& inverse_mass,
-                        F&& f) {
-        const bool locked = rotation_dof<Dim> != 1 && !inverse_mass.free_axes.empty();
-        if (locked || !jacobian.cell_lever.empty() || !has_scalar_inertia(inverse_mass)) {
-            tensor_.assign(jacobian, inverse_mass);
-            return f(tensor_);
-        }
-        scalar_.assign(jacobian, inverse_mass);
-        return f(scalar_);
-    }
-
-  private:
-    DelassusProduct<Dim, AngularMatrix<Dim>, Rows> tensor_;
-    DelassusProduct<Dim, double, Rows> scalar_;
-};
 
 }  // namespace talus

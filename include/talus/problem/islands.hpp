@@ -19,7 +19,7 @@ class Islands {
         parent_.resize(count);
         std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
     }
-    void join(std::size_t a, std::size_t b) {
+    [[gnu::noinline]] void join(std::size_t a, std::size_t b) {
         const std::uint32_t x = root(a), y = root(b);
         // The smaller index is the root, whatever the order of the joins.
         if (x < y)

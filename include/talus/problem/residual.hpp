@@ -56,22 +56,10 @@ class ContactScales {
     /// it is one island.
     template <class W>
     void find_islands(const W& w) {
-        const std::size_t n = w.contact_count();
-        detail::make_room(label_, n);
-        detail::make_room(index_, n);
-        detail::make_room(island_, n);
-        label_.assign(n, 0);
+        make_room(w.contact_count());
         if constexpr (requires(std::span<std::uint32_t> label) { w.islands(label); })
             w.islands(std::span<std::uint32_t>(label_));
-        // Labels without gaps, in the order of their first contacts.
-        index_.assign(n, unseen);
-        std::uint32_t count = 0;
-        for (std::uint32_t& label : label_) {
-            if (index_[label] == unseen) index_[label] = count++;
-            label = index_[label];
-        }
-        island_.assign(count, Island{});
-        fastest_ = 0.0;
+        number_islands();
     }
     std::size_t contact_count() const { return label_.size(); }
     /// Knows no problem.
@@ -161,6 +149,24 @@ class ContactScales {
     double free_scale(const Island& island) const {
         const double v = std::max(island.violated, share_of_speed * island.fastest);
         return v > nothing * fastest_ ? v : share_of_speed * fastest_;
+    }
+
+    void make_room(std::size_t n) {
+        detail::make_room(label_, n);
+        detail::make_room(index_, n);
+        detail::make_room(island_, n);
+        label_.assign(n, 0);
+    }
+    /// Labels without gaps, in the order of their first contacts.
+    void number_islands() {
+        index_.assign(label_.size(), unseen);
+        std::uint32_t count = 0;
+        for (std::uint32_t& label : label_) {
+            if (index_[label] == unseen) index_[label] = count++;
+            label = index_[label];
+        }
+        island_.assign(count, Island{});
+        fastest_ = 0.0;
     }
 
     static constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();

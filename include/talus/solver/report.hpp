@@ -56,7 +56,7 @@ struct SolveReport {
     Column<SolveStage> stages;       ///< who did what, where several engines took part
 
     /// Adds to a history of at most `limit` samples; from then on the last one is replaced.
-    void note(int iteration, double residual_then, std::size_t limit) {
+    [[gnu::noinline]] void note(int iteration, double residual_then, std::size_t limit) {
         if (history.size() == limit) history.pop_back();
         history.push_back({iteration, residual_then});
     }

@@ -18,8 +18,8 @@ namespace talus {
 /// that in the step [m/s]; zero for an obstacle at rest [m]. Bodies that impulses make faster than
 /// that meet new contacts as in the midpoint scheme.
 template <int Dim>
-double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bounding_radius,
-                          double gained, double h) {
+[[gnu::noinline]] double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i,
+                                            double bounding_radius, double gained, double h) {
     const double spin = bodies.spin[i].norm();
     const double turning =
         spin > 0.0 && std::isfinite(bounding_radius) ? spin * bounding_radius : 0.0;
@@ -28,8 +28,9 @@ double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bound
 
 /// Whether there are bodies without bounds.
 inline bool has_walls(std::span<const double> bounding_radius) {
-    return std::any_of(bounding_radius.begin(), bounding_radius.end(),
-                       [](double radius) { return !std::isfinite(radius); });
+    for (const double radius : bounding_radius)
+        if (!std::isfinite(radius)) return true;
+    return false;
 }
 
 /// The same where there may be a periodic cell, of which bodies and images follow the mean motion:
@@ -37,9 +38,10 @@ inline bool has_walls(std::span<const double> bounding_radius) {
 /// reach. Walls, which have no images, are met by the velocity of the image at home, from which the
 /// body is away by `from_home` [m].
 template <int Dim>
-double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i, double bounding_radius,
-                          double gained, double h, const std::optional<PeriodicCell<Dim>>& cell,
-                          bool walls, const Vector<Dim>& from_home) {
+[[gnu::noinline]] double anticipation_reach(const Bodies<Dim>& bodies, std::size_t i,
+                                            double bounding_radius, double gained, double h,
+                                            const std::optional<PeriodicCell<Dim>>& cell,
+                                            bool walls, const Vector<Dim>& from_home) {
     const double plain = anticipation_reach(bodies, i, bounding_radius, gained, h);
     if (!cell || !std::isfinite(bounding_radius)) return plain;
     const auto at_speed_against = [&](const Vector<Dim>& velocity) {

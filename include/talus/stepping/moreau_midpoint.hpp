@@ -29,7 +29,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 
 namespace talus {
@@ -315,9 +314,9 @@ TALUS_OF_STEP::evaluate_forces(SystemType& system, const StepParams& params, Dat
 TALUS_OF_STEP::require_finite_forces(const Data& data) {
     for (std::size_t i = 0; i < data.applied.size(); ++i) {
         if (data.applied[i].force.allFinite() && data.applied[i].torque.allFinite()) continue;
-        const std::string item = detail::numbered("applied force on body", i);
-        require_finite(item, data.applied[i].force);
-        require_finite(item + ", its torque", data.applied[i].torque);
+        require_finite(detail::numbered("applied force on body", i), data.applied[i].force);
+        require_finite(detail::numbered("applied force on body", i, ", its torque"),
+                       data.applied[i].torque);
     }
 }
 

@@ -6,10 +6,8 @@
 #include <talus/dynamics/place.hpp>
 #include <talus/dynamics/run_state.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
-#include <string>
 
 namespace talus {
 
@@ -54,20 +52,19 @@ void require_masses_or_motions(const Bodies<Dim>& bodies,
     }
     if (require_masses_of(bodies) == obstacles.size()) return;
     const auto has_motion = [&](std::size_t i) {
-        return std::any_of(obstacles.begin(), obstacles.end(), [i](const Obstacle<Dim>& obstacle) {
-            return static_cast<std::size_t>(obstacle.body) == i;
-        });
+        for (const Obstacle<Dim>& obstacle : obstacles)
+            if (static_cast<std::size_t>(obstacle.body) == i) return true;
+        return false;
     };
     for (std::size_t i = 0; i < n; ++i) {
         if (!bodies.is_obstacle(i)) continue;
         const double speed = bodies.velocity[i].norm() + bodies.spin[i].norm();
         const double turns = bodies.inverse_inertia[i].maxCoeff();
         if ((speed == 0.0 && turns == 0.0) || has_motion(i)) continue;
-        const std::string body = detail::numbered(" of body", i);
         if (turns != 0.0)
-            detail::reject("inverse moment of inertia" + body, turns,
+            detail::reject(detail::numbered("inverse moment of inertia of body", i), turns,
                            "0 like its inverse mass, which makes it an obstacle");
-        detail::reject("velocity" + body, speed,
+        detail::reject(detail::numbered("velocity of body", i), speed,
                        "0, as it has neither mass nor a prescribed motion");
     }
 }

@@ -177,7 +177,8 @@ struct RunSummary {
     }
 
     template <class Data>
-    static void note(Worst& worst, double value, const Data& data, std::size_t contact) {
+    [[gnu::noinline]] static void note(Worst& worst, double value, const Data& data,
+                                       std::size_t contact) {
         if (!(value > worst.value) && !std::isnan(value)) return;
         worst = {value, data.t_end()};
         if (contact >= data.contact_count()) return;

@@ -8,8 +8,10 @@
 #include <talus/stepping/run_summary.hpp>
 #include <talus/stepping/simulation_types.hpp>
 
+#include <array>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -17,7 +19,7 @@ namespace talus {
 
 namespace detail {
 
-[[noreturn]] inline void refuse_data() {
+[[noreturn, gnu::cold]] inline void refuse_data() {
     throw input_error(
         "data of the last step are of bodies that were removed since, but must be read before the "
         "removal, or after the next step");
@@ -66,16 +68,23 @@ class Simulation {
 
     /// The clock begins where the system's does. Throws input_error if a setting is out of range.
     explicit Simulation(SystemType system, SimulationParams params = {},
-                        Solver solver = default_solver<Dim, Types>());
+                        Solver solver = default_solver<Dim, Types>())
+        : system_(std::move(system)), params_(params), solver_(std::move(solver)) {
+        start();
+    }
     /// One material.
     explicit Simulation(const Law& law, SimulationParams params = {},
                         Solver solver = default_solver<Dim, Types>())
-        : Simulation(SystemType(law), params, std::move(solver)) {}
+        : system_(law), params_(params), solver_(std::move(solver)) {
+        start();
+    }
     /// Several materials: a MaterialTable. (A template, for which no braces are meant.)
     template <std::same_as<MaterialTable<Law>> Table>
     explicit Simulation(const Table& laws, SimulationParams params = {},
                         Solver solver = default_solver<Dim, Types>())
-        : Simulation(SystemType(laws), params, std::move(solver)) {}
+        : system_(laws), params_(params), solver_(std::move(solver)) {
+        start();
+    }
 
     /// Advances by one step; returns what it did. Whatever is thrown on the way (by a law, a force,
     /// a motion, a shape, the solver, for want of memory) leaves the simulation as it was, bit for
@@ -95,7 +104,7 @@ class Simulation {
         RunSummary summary;
         for (std::int64_t k = 0; k < steps; ++k) {
             step();
-            summary.record(system_, data_);
+            summary.record(system_, data_[last_]);
             summary.stopped = !notify(on_step, std::as_const(*this));
             if (summary.stopped) break;
         }
@@ -121,7 +130,7 @@ class Simulation {
     /// bodies were removed since: its indices were those of others.
     const Data& data() const {
         if (system_.bodies.removals() != removals_) detail::refuse_data();
-        return data_;
+        return data_[last_];
     }
     /// Impulses remembered for the warm start; clear it to make the next step start cold.
     ImpulseCache<Dim>& impulse_cache() {
@@ -134,47 +143,46 @@ class Simulation {
     Correction& gap_correction() { return gap_correction_; }
 
   private:
+    void start();
+
     SystemType system_;
     SimulationParams params_;
     Solver solver_;
     MoreauMidpoint<Dim, Law, ShapeType, Broad, Hooks> integrator_;
     [[no_unique_address]] Correction gap_correction_;
-    Data data_, next_data_;  // the next one: of a step under way
-    double time_start_, time_;
+    std::array<Data, 2> data_;
+    std::size_t last_ = 0;  // the one of the last step; the other is of a step under way
+    double time_start_ = 0.0, time_ = 0.0;
     std::int64_t step_count_ = 0;
-    std::int64_t removals_;  // of bodies, at the last step
+    std::int64_t removals_ = 0;  // of bodies, at the last step
 };
 
 template <int Dim, class Types>
-requires SpaceDimension<Dim> Simulation<Dim, Types>::Simulation(SystemType system,
-                                                                SimulationParams params,
-                                                                Solver solver)
-    : system_(std::move(system)),
-      params_(params),
-      solver_(std::move(solver)),
-      time_start_(system_.time()),
-      time_(time_start_),
-      removals_(system_.bodies.removals()) {
+requires SpaceDimension<Dim>
+void Simulation<Dim, Types>::start() {
     require_positive("step size h", params_.h);
     require_valid(params_.step);
+    time_start_ = time_ = system_.time();
+    removals_ = system_.bodies.removals();
 }
 
 template <int Dim, class Types>
 requires SpaceDimension<Dim>
 auto Simulation<Dim, Types>::step() -> const Data& {
     gap_correction_.require_valid();
-    integrator_.step(system_, time_, params_.h, params_.step, solver_, next_data_);
+    Data& next = data_[1 - last_];
+    integrator_.step(system_, time_, params_.h, params_.step, solver_, next);
     try {
-        gap_correction_.apply(system_, next_data_);
+        gap_correction_.apply(system_, next);
     } catch (...) {
         integrator_.undo(system_);
         throw;
     }
-    std::swap(data_, next_data_);
+    last_ = 1 - last_;
     removals_ = system_.bodies.removals();
     ++step_count_;
     time_ = time_start_ + static_cast<double>(step_count_) * params_.h;
-    return data_;
+    return next;
 }
 
 template <int Dim, class Types>
@@ -214,7 +222,7 @@ void Simulation<Dim, Types>::restore(const RunState<Dim, ShapeType>& state) {
     integrator_.warm_start().restore(state);
     system_ = std::move(system);
     gap_correction_ = std::move(correction);
-    data_ = Data();
+    data_[last_] = Data();
     removals_ = system_.bodies.removals();
     time_start_ = state.time_start;
     step_count_ = state.step_count;

@@ -7,7 +7,7 @@
 #include <talus/core/room.hpp>
 #include <talus/law/coulomb.hpp>
 #include <talus/problem/assembled_problem.hpp>
-#include <talus/problem/delassus_product.hpp>
+#include <talus/problem/rigid_body_operators.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/sweeps/anderson_memory.hpp>
 #include <talus/solver/sweeps/sweep_kernel.hpp>
@@ -123,18 +123,19 @@ class AcceleratedGaussSeidel {
             kernel.prepare(task);
         }
         void sweep_twice(Way way) override {
-            constexpr double part = 0.4;
-            const std::size_t n = task.r.size();
-            if (way == Way::damped) {
-                for (std::size_t i = 0; i < n; ++i) kernel.visit_in_part(task, i, part);
-                for (std::size_t i = n; i-- > 0;) kernel.visit_in_part(task, i, part);
-                return;
-            }
-            for (std::size_t i = 0; i < n; ++i) kernel.visit(task, i);
-            if (way == Way::plain)
-                for (std::size_t i = 0; i < n; ++i) kernel.visit(task, i);
-            else
-                for (std::size_t i = n; i-- > 0;) kernel.visit(task, i);
+            with_quickest(task, [&](const auto& quick) {
+                const std::size_t n = task.r.size();
+                if (way == Way::damped) {
+                    for (std::size_t i = 0; i < n; ++i) kernel.visit_in_part(quick, i, 0.4);
+                    for (std::size_t i = n; i-- > 0;) kernel.visit_in_part(quick, i, 0.4);
+                    return;
+                }
+                for (std::size_t i = 0; i < n; ++i) kernel.visit(quick, i);
+                if (way == Way::plain)
+                    for (std::size_t i = 0; i < n; ++i) kernel.visit(quick, i);
+                else
+                    for (std::size_t i = n; i-- > 0;) kernel.visit(quick, i);
+            });
         }
         void start() override { task.w.start(task.r); }
         Residual evaluate() override { return kernel.evaluate(task); }

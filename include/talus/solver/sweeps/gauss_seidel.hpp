@@ -10,7 +10,7 @@
 #include <talus/law/coulomb.hpp>
 #include <talus/law/weighted_mean.hpp>
 #include <talus/problem/assembled_problem.hpp>
-#include <talus/problem/delassus_product.hpp>
+#include <talus/problem/rigid_body_operators.hpp>
 #include <talus/solver/concepts.hpp>
 #include <talus/solver/sweeps/sweep_kernel.hpp>
 #include <talus/solver/sweeps/sweep_order.hpp>
@@ -176,7 +176,9 @@ class GaussSeidel {
     template <class W>
     double sweep(const Task<W>& task) {
         double change = 0.0;
-        sequence_.next([&](std::size_t i) { change += kernel_.visit(task, i); });
+        with_quickest(task, [&](const auto& quick) {
+            sequence_.next([&](std::size_t i) { change += kernel_.visit(quick, i); });
+        });
         return std::sqrt(change);
     }
 
