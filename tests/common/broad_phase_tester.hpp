@@ -68,11 +68,11 @@ class BroadPhaseTester {
         BOOST_TEST_INFO_SCOPE(n << " bodies, size ratio " << ratio << ", far by " << far);
         std::vector<Box> boxes;
         const double extent = std::pow(n, 1.0 / Dim) * (ratio > 1.0 ? 0.5 : 0.8);
-        for (int k = 0; k < n; ++k)
-            boxes.push_back(box(far * Vec::Ones() + extent * Vec::NullaryExpr([&] {
-                                                        return random_.uniform(0.0, 1.0);
-                                                    }),
-                                half_sides(ratio)));
+        for (int k = 0; k < n; ++k) {
+            Vec centre;
+            for (double& x : centre) x = far + extent * random_.uniform(0.0, 1.0);
+            boxes.push_back(box(centre, half_sides(ratio)));
+        }
         const std::size_t pairs = check(boxes);
         if (n == 300) BOOST_TEST(pairs > 0U);
     }

@@ -60,6 +60,11 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(vectors_are_those_of_eigen, S, sizes) {
         BOOST_TEST(std::abs(a.sum() - x.sum()) <= rounding);
         BOOST_TEST(a.minCoeff() == x.minCoeff());
         BOOST_TEST(a.maxCoeff() == x.maxCoeff());
+        int least = -1, most = -1;
+        Eigen::Index least_of_eigen = -1, most_of_eigen = -1;
+        BOOST_TEST(a.minCoeff(&least) == x.minCoeff(&least_of_eigen));
+        BOOST_TEST(a.maxCoeff(&most) == x.maxCoeff(&most_of_eigen));
+        BOOST_TEST((least == least_of_eigen && most == most_of_eigen));
         check_same(a.cwiseInverse().cwiseProduct(a).cwiseQuotient(a).cwiseProduct(a),
                    Eigen::VectorXd::Ones(n));
         auto c = a;

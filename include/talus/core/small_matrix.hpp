@@ -293,6 +293,21 @@ class SmallMatrix : public Eigen::MatrixBase<SmallMatrix<Rows, Cols, Real>>,
         for (int i = 1; i < Rows * Cols; ++i) most = most < at(i) ? at(i) : most;
         return most;
     }
+    /// The same, with where: at the first of several.
+    template <std::integral I>
+    Real minCoeff(I* where) const requires(is_vector) {
+        *where = 0;
+        for (int i = 1; i < Size; ++i)
+            if (at(i) < (*this)(*where)) *where = i;
+        return (*this)(*where);
+    }
+    template <std::integral I>
+    Real maxCoeff(I* where) const requires(is_vector) {
+        *where = 0;
+        for (int i = 1; i < Size; ++i)
+            if ((*this)(*where) < at(i)) *where = i;
+        return (*this)(*where);
+    }
     /// Whether all components are numbers, and finite.
     bool allFinite() const {
         bool finite = true;
