@@ -5,8 +5,6 @@
 #include <talus/law/bracketed_root.hpp>
 #include <talus/law/rolling_cone.hpp>
 
-#include <Eigen/Jacobi>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,8 +56,8 @@ class RollingBlock {
   private:
     static constexpr int T = tangent_count<Rows>;
     static constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    using Part = Eigen::Matrix<double, T, 1>;  ///< tangential, or rolling
-    using PartMatrix = Eigen::Matrix<double, T, T>;
+    using Part = Vector<T>;  ///< tangential, or rolling
+    using PartMatrix = Matrix<T>;
 
     /// Spins times the length, moments over it: u and r as the members below have them, and back.
     Vector<Rows> rescaled(Vector<Rows> x) const {
@@ -76,7 +74,7 @@ class RollingBlock {
     bool held_by(double a, const Part& f_t, const Part& f_m, double disk_t, Part& r_t,
                  Part& r_m) const;
     static double entry(const Part& x, const Part& d, double radius);
-    static Part in_disk(PartMatrix w, Part f, double flat, double rounding, double radius);
+    static Part in_disk(const PartMatrix& w, Part f, double flat, double rounding, double radius);
 
     double length_ = 1.0;      ///< unit of the rolling rows
     Matrix<Rows> w_;           ///< symmetric [1/kg]
@@ -103,7 +101,9 @@ requires RollingRows<Rows> RollingBlock<Rows>::RollingBlock(const Matrix<Rows>& 
     const SymmetricEigen<T> rolling(w_.template bottomRightCorner<T, T>());
     rolling_axes_ = rolling.vectors;
     rolling_ = rolling.values;
-    rolling_ = (rolling_.array() > 8.0 * epsilon * rolling_.sum()).select(rolling_, 0.0);
+    const double flat = 8.0 * epsilon * rolling_.sum();
+    for (double& stiffness : rolling_)
+        if (!(stiffness > flat)) stiffness = 0.0;
     coupling_ = w_.template block<T, T>(1, 1 + T) * rolling_axes_;
 }
 
@@ -196,7 +196,8 @@ bool RollingBlock<Rows>::held_by(double a, const Part& f_t, const Part& f_m, dou
     Part mobility = Part::Zero();
     for (int i = 0; i < T; ++i)
         if (rolling_[i] + a > 0.0) mobility[i] = 1.0 / (rolling_[i] + a);
-    const Eigen::Matrix<double, T, T> back = coupling_ * mobility.asDiagonal();
+    PartMatrix back = coupling_;
+    for (int i = 0; i < T; ++i) back.col(i) *= mobility[i];
     const Part drag = back * f_m;
     const PartMatrix w_tt = w_.template block<T, T>(1, 1);
     r_t = in_disk(w_tt - back * coupling_.transpose(), f_t - drag, 8.0 * epsilon * w_tt.trace(),
@@ -224,18 +225,15 @@ double RollingBlock<Rows>::entry(const Part& x, const Part& d, double radius) {
 /// there what in f is below `rounding`.
 template <int Rows>
 requires RollingRows<Rows>
-typename RollingBlock<Rows>::Part RollingBlock<Rows>::in_disk(PartMatrix w, Part f, double flat,
-                                                              double rounding, double radius) {
+typename RollingBlock<Rows>::Part RollingBlock<Rows>::in_disk(const PartMatrix& w, Part f,
+                                                              double flat, double rounding,
+                                                              double radius) {
     if (!(radius > 0.0)) return Part::Zero();
-    PartMatrix axes = PartMatrix::Identity();
-    if constexpr (T > 1) {  // one rotation makes two rows diagonal
-        Eigen::JacobiRotation<double> turn;
-        turn.makeJacobi(w, 0, 1);
-        w.applyOnTheLeft(0, 1, turn.adjoint());
-        w.applyOnTheRight(0, 1, turn);
-        axes.applyOnTheRight(0, 1, turn);
-    }
-    const Part stiffness = (w.diagonal().array() > flat).select(w.diagonal(), 0.0);
+    const SymmetricEigen<T> eigen(w);
+    const PartMatrix& axes = eigen.vectors;
+    Part stiffness = eigen.values;
+    for (double& s : stiffness)
+        if (!(s > flat)) s = 0.0;
     f = axes.transpose() * f;
     for (int i = 0; i < T; ++i)
         if (stiffness[i] == 0.0 && std::abs(f[i]) <= rounding) f[i] = 0.0;
