@@ -52,6 +52,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(vectors_are_those_of_eigen, S, sizes) {
         check_same(a.cwiseProduct(b), x.cwiseProduct(y));
         check_same(a.cwiseMin(b), x.cwiseMin(y));
         check_same(a.cwiseMax(b), x.cwiseMax(y));
+        check_same(a.cwiseMin(0.1), x.cwiseMin(0.1));
+        check_same(a.cwiseMax(0.1), x.cwiseMax(0.1));
         check_same(a.cwiseAbs(), x.cwiseAbs());
         check_same(a.normalized(), x.normalized());
         check_same(a * b.transpose(), x * y.transpose());
@@ -229,6 +231,20 @@ BOOST_AUTO_TEST_CASE(it_is_an_operand_of_eigens_expressions) {
     // An expression holds it by value.
     const auto sum = y + (v + v);
     check_same(sum, 3.0 * y);
+}
+
+template <class D>
+double sum_of_lengths(const Eigen::MatrixBase<D>& m) {
+    return m.norm() + m[0] * m(1) + m.normalized()[2] + m.transpose().squaredNorm();
+}
+
+BOOST_AUTO_TEST_CASE(functions_of_any_matrix_of_eigens_take_it) {
+    std::mt19937 rng(9);
+    const auto a = random_matrix<3, 1>(rng), b = random_matrix<3, 1>(rng);
+    const Eigen::Vector3d x = a, y = b;
+    BOOST_TEST(std::abs(sum_of_lengths(a) - sum_of_lengths(x)) <= rounding);
+    check_same(Eigen::Quaterniond::FromTwoVectors(a, b).coeffs(),
+               Eigen::Quaterniond::FromTwoVectors(x, y).coeffs());
 }
 
 /// What is written down of Eigen without including it.

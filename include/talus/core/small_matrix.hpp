@@ -266,6 +266,8 @@ class SmallMatrix : public Eigen::MatrixBase<SmallMatrix<Rows, Cols, Real>>,
         each([&](int i) { r.at(i) = at(i) < o.at(i) ? o.at(i) : at(i); });
         return r;
     }
+    SmallMatrix cwiseMin(Real x) const { return cwiseMin(Constant(x)); }
+    SmallMatrix cwiseMax(Real x) const { return cwiseMax(Constant(x)); }
     SmallMatrix cwiseAbs() const {
         SmallMatrix r;
         each([&](int i) { r.at(i) = std::abs(at(i)); });

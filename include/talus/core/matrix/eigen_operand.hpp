@@ -142,6 +142,20 @@ template <int Rows, int Cols, class Real>
 class Eigen::MatrixBase<talus::SmallMatrix<Rows, Cols, Real>>
     : public Eigen::DenseBase<talus::SmallMatrix<Rows, Cols, Real>> {
   public:
+    // For functions that take a MatrixBase and ask it: SmallMatrix has its own, which hide these.
+    decltype(auto) operator()(auto... at) { return this->derived()(at...); }
+    decltype(auto) operator()(auto... at) const { return this->derived()(at...); }
+    decltype(auto) operator[](std::ptrdiff_t i) { return this->derived()[i]; }
+    decltype(auto) operator[](std::ptrdiff_t i) const { return this->derived()[i]; }
+    auto norm() const { return this->derived().norm(); }
+    auto squaredNorm() const { return this->derived().squaredNorm(); }
+    auto normalized() const { return this->derived().normalized(); }
+    auto sum() const { return this->derived().sum(); }
+    auto trace() const { return this->derived().trace(); }
+    auto transpose() const { return this->derived().transpose(); }
+    auto dot(const auto& other) const { return this->derived().dot(other.derived()); }
+    auto cross(const auto& other) const { return this->derived().cross(other.derived()); }
+
     // By Eigen, lazy as ever, for programs that include what of Eigen they need.
     auto array() { return this->derived().eigen().array(); }
     auto array() const { return this->derived().eigen().array(); }
