@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <set>
 
 #include "common/dimensions.hpp"
@@ -345,6 +347,29 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(coinciding_shapes_give_finite_contacts, D, dimensi
                 BOOST_CHECK_SMALL(c.normal.norm() - 1.0, rounding);
             }
         }
+}
+
+/// Those of one pair, mostly few and in order, but there may be thousands.
+BOOST_AUTO_TEST_CASE_TEMPLATE(contacts_are_sorted_by_feature_however_many, D, dimensions) {
+    constexpr int Dim = D::value;
+    random_geometry::Generator g(11);
+    for (const std::size_t n : {0u, 1u, 2u, 3u, 22u, 23u, 24u, 60u, 140u, 900u, 5000u}) {
+        talus::Column<talus::ContactPoint<Dim>> points;
+        for (std::size_t k = 0; k < n; ++k) {
+            const std::uint64_t code = g();
+            points.push_back({.gap = static_cast<double>(code % 1000), .feature = {code}});
+        }
+        std::multiset<talus::FeatureId> expected;
+        for (const auto& point : points) expected.insert(point.feature);
+        talus::sort_by_feature(points);
+        BOOST_TEST(points.size() == n);
+        std::size_t k = 0;
+        for (const talus::FeatureId& feature : expected) {
+            BOOST_REQUIRE(points[k].feature == feature);
+            BOOST_REQUIRE_EQUAL(points[k].gap, static_cast<double>(feature.code % 1000));
+            ++k;
+        }
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

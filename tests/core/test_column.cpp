@@ -7,6 +7,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -51,6 +52,20 @@ BOOST_AUTO_TEST_CASE(is_a_range_a_span_and_a_vector_where_one_is_asked_for) {
     static_assert(std::is_nothrow_move_assignable_v<Column<std::string>>);
     static_assert(std::ranges::contiguous_range<Column<int>>);
 }
+
+/// Copied by code of its own, and yet without a destructor, as small matrices are.
+struct Copied {
+    int k = 0;
+    Copied() = default;
+    explicit Copied(int k_) : k(k_) {}
+    Copied(const Copied& other) noexcept : k(other.k) {}
+    Copied& operator=(const Copied& other) noexcept {
+        k = other.k;
+        return *this;
+    }
+    friend auto operator<=>(const Copied&, const Copied&) = default;
+};
+static_assert(!std::is_trivially_copyable_v<Copied> && std::is_trivially_destructible_v<Copied>);
 
 /// Whatever is done at random to both, they hold the same.
 template <class T, class Make>
@@ -132,6 +147,8 @@ void goes_with_a_vector(Make&& make) {
 }
 BOOST_AUTO_TEST_CASE(does_what_a_vector_does) {
     goes_with_a_vector<double>([](int k) { return 0.5 * k; });
+    goes_with_a_vector<bool>([](int k) { return k % 2 == 0; });
+    goes_with_a_vector<Copied>([](int k) { return Copied(k); });
     // Too long to be held without memory of its own: what is lost or freed twice is seen.
     goes_with_a_vector<std::string>([](int k) { return std::string(40, 'a') + std::to_string(k); });
     goes_with_a_vector<std::shared_ptr<int>>([](int k) {

@@ -3,7 +3,6 @@
 
 #include <talus/core/printable.hpp>
 
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -28,10 +27,11 @@ namespace detail {
 
 [[noreturn, gnu::cold]] inline void fail_check(const char* expression, const char* sentence,
                                                const char* file, int line) {
-    char number[16];
-    std::snprintf(number, sizeof number, ":%d: ", line);
+    char digits[12] = {};
+    char* number = digits + sizeof digits - 1;
+    for (; line > 0; line /= 10) *--number = static_cast<char>('0' + line % 10);
     std::string text(file);
-    text.append(number).append(sentence);
+    text.append(":").append(number).append(": ").append(sentence);
     throw precondition_error(text.append(" [").append(expression).append("]"));
 }
 

@@ -179,8 +179,7 @@ class AcceleratedGaussSeidel {
     SweepKernel<Dim, Law> kernel_;
     int count_ = 0, next_look_ = 1;  ///< of iterations
     int last_for_aim_ = 0;           ///< iteration at which the aim is given up; 0: there is none
-    // y_: where the next map begins, own_y_: that of the own way meanwhile; kept_: the best
-    // impulses measured.
+    // y_: where the next map begins, own_y_: that of the own way; kept_: the best impulses seen.
     Column<Vector<Dim>> x_, y_, own_y_, kept_;
     Residual best_;  ///< theirs
     // Momentum: the last T(y), Nesterov's time and the last increment.
