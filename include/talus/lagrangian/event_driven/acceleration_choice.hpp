@@ -5,6 +5,7 @@
 #include <talus/lagrangian/event_driven/acceleration_problem.hpp>
 #include <talus/lagrangian/event_driven/mode_search.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -29,16 +30,18 @@ struct AccelerationChoice {
 
 /// Chooses by enumeration up to `enumeration_contacts` contacts, by Lemke's algorithm above, and
 /// where forces of redundant contacts make the enumeration incomplete. `excluded` holds as long as
-/// something else is left.
+/// something else is left; in space a contact that shall not stick would have to slide, in a
+/// direction that is not found here.
 inline AccelerationChoice choose_accelerations(const AccelerationProblem& p,
                                                std::span<const ExcludedMode> excluded,
                                                int enumeration_contacts) {
     AccelerationChoice choice;
     const bool small = p.contact_count() <= static_cast<std::size_t>(enumeration_contacts);
     ModeSearch search;
+    const bool strict = p.rows > 2 && std::ranges::count(excluded, ExcludedMode::sticking) > 0;
     if (small) {
         search.run(p, excluded);
-        if (search.solutions().empty() && !excluded.empty()) search.run(p);
+        if (search.solutions().empty() && !excluded.empty() && !strict) search.run(p);
         choice.counted = search.complete();
         const auto& found = search.solutions();
         if (!found.empty()) {

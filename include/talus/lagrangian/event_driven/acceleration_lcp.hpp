@@ -10,20 +10,23 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace talus {
 
-/// An AccelerationProblem as a linear complementarity problem [PfeifferGlocker1996]. A contact that
-/// slides, or has no friction, gives the pair
+/// An AccelerationProblem as a linear complementarity problem. A contact that slides, or has no
+/// friction, gives the pair
 ///
 ///   r_n | a_n ,   with r = r_n (n - mu s) ;
 ///
-/// one at rest in the plane three, with a_t = a_plus - a_minus:
+/// one at rest in the plane four, with r_t = plus - minus [StewartTrinkle1996]:
 ///
-///   r_n | a_n ,   mu r_n + r_t | a_plus ,   a_minus | mu r_n - r_t .
+///   r_n | a_n ,   plus | a_t + speed ,   minus | -a_t + speed ,   speed | mu r_n - plus - minus .
 ///
-/// One at rest in space with friction has no such form.
+/// If no contact slides yet the matrix is copositive, for which Lemke's algorithm ends with a
+/// solution [AnitescuPotra1997]; a form with three pairs is not, and it often ends without. One at
+/// rest in space with friction has no such form.
 class AccelerationLcp {
   public:
     Eigen::MatrixXd m;
@@ -41,7 +44,7 @@ class AccelerationLcp {
         Eigen::Index size = 0;
         for (std::size_t k = 0; k < n; ++k) {
             first_[k] = size;
-            size += at_rest(p, k) ? 3 : 1;
+            size += at_rest(p, k) ? 4 : 1;
         }
         // r = forces_ z, and the rows of w that are accelerations.
         forces_.setZero(p.b.size(), size);
@@ -51,9 +54,10 @@ class AccelerationLcp {
             forces_(row, i) = 1.0;
             of_row(i, row) = 1.0;
             if (at_rest(p, k)) {
-                forces_(row + 1, i) = -p.mu[k];
-                forces_(row + 1, i + 1) = 1.0;
-                of_row(i + 1, row + 1) = 1.0;
+                for (const auto& [place, sign] : {std::pair{i + 1, 1.0}, std::pair{i + 2, -1.0}}) {
+                    forces_(row + 1, place) = sign;
+                    of_row(place, row + 1) = sign;
+                }
             } else {
                 forces_.col(i).segment(row + 1, p.rows - 1) = -p.mu[k] * p.slip.col(p.column(k));
             }
@@ -63,9 +67,9 @@ class AccelerationLcp {
         for (std::size_t k = 0; k < n; ++k) {
             if (!at_rest(p, k)) continue;
             const Eigen::Index i = first_[k];
-            m(i + 1, i + 2) = 1.0;
-            m(i + 2, i) = 2.0 * p.mu[k];
-            m(i + 2, i + 1) = -1.0;
+            m(i + 1, i + 3) = m(i + 2, i + 3) = 1.0;
+            m(i + 3, i) = p.mu[k];
+            m(i + 3, i + 1) = m(i + 3, i + 2) = -1.0;
         }
     }
     /// The modes, forces and accelerations of a solution z of what was posed.
@@ -73,6 +77,8 @@ class AccelerationLcp {
         AccelerationSolution s{{{}, p.slip}, forces_ * z, p.b};
         s.acceleration.noalias() += p.w * s.force;
         const Eigen::VectorXd w = m * z + q;
+        const double rounding = 1e-11 * (p.b.lpNorm<Eigen::Infinity>() +
+                                         (s.acceleration - p.b).lpNorm<Eigen::Infinity>());
         for (std::size_t k = 0; k < p.contact_count(); ++k) {
             const Eigen::Index i = first_[k];
             // The larger of a pair is the one that counts; which is closed if both vanish.
@@ -82,11 +88,10 @@ class AccelerationLcp {
             } else if (!at_rest(p, k)) {
                 s.modes.mode.push_back(ContactMode::sliding);
             } else {
-                const double forward = w[i + 1] - scale * z[i + 1];
-                const double backward = z[i + 2] - scale * w[i + 2];
-                const bool slides = std::max(forward, backward) > 0.0;
+                const double a_t = s.acceleration[p.row(k) + 1];
+                const bool slides = std::abs(a_t) > rounding;
                 s.modes.mode.push_back(slides ? ContactMode::sliding : ContactMode::sticking);
-                if (slides) s.modes.slip(0, p.column(k)) = forward > backward ? 1.0 : -1.0;
+                if (slides) s.modes.slip(0, p.column(k)) = a_t > 0.0 ? 1.0 : -1.0;
             }
         }
         return s;

@@ -12,7 +12,7 @@
 
 namespace talus {
 
-/// A step of the Runge-Kutta method of order 5 of Dormand and Prince with its error and its dense
+/// A step of the Runge-Kutta method of order 5 [DormandPrince1980] with its error and its dense
 /// output of order 4, by Boost.Odeint. Keeps its memory. What the derivative throws is let pass.
 class DenseStep {
   public:

@@ -42,10 +42,7 @@ class EventSettlement {
         for (const std::size_t place : touching(course))
             if (motion_.normal_velocity(place) <= params_.resting_speed) closed_.push_back(place);
         motion_.pose_accelerations(system_, closed_);
-        excluded_.assign(ended.empty() ? 0 : closed_.size(), ExcludedMode::none);
-        for (const Watch& watch : ended)
-            for (std::size_t c = 0; c < closed_.size(); ++c)
-                if (closed_[c] == watch.contact) excluded_[c] = excluded_by(watch.kind);
+        exclude(course.phase, ended);
         const AccelerationChoice choice =
             choose_accelerations(motion_.problem, excluded_, params_.enumeration_contacts);
         report.counted = report.counted && choice.counted;
@@ -88,6 +85,21 @@ class EventSettlement {
         if (kind == WatchKind::normal_force) return ExcludedMode::closed;
         if (kind == WatchKind::friction_margin) return ExcludedMode::sticking;
         return ExcludedMode::none;
+    }
+    /// Modes that shall not be taken again. Where one of several contacts that hold each other
+    /// comes to its limit, those that are at theirs already (they slide, but not yet) are not to
+    /// take its turn.
+    void exclude(const SmoothPhase& before, const std::vector<Watch>& ended) {
+        excluded_.assign(ended.empty() ? 0 : closed_.size(), ExcludedMode::none);
+        for (const Watch& watch : ended)
+            for (std::size_t c = 0; c < closed_.size(); ++c) {
+                const bool at_limit = before.mode_at(closed_[c]) == ContactMode::sliding &&
+                                      motion_.problem.mu[c] > 0.0 && !motion_.problem.slides(c);
+                if (closed_[c] == watch.contact)
+                    excluded_[c] = excluded_by(watch.kind);
+                else if (watch.kind == WatchKind::friction_margin && at_limit)
+                    excluded_[c] = ExcludedMode::sticking;
+            }
     }
     /// Contacts that take part in what happens now: of the phase, or with a gap that is none.
     const std::vector<std::size_t>& touching(const EventCourse& course) {

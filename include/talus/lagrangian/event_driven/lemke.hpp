@@ -85,10 +85,13 @@ inline LemkeResult lemke(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
             result.status = LemkeStatus::ray;
             return result;
         }
-        // The covering variable leaves as soon as it may: that is the end.
+        // The covering variable leaves as soon as it may, also where only rounding lets another one
+        // go first: that is the end.
+        constexpr double rounding = 1e-11;
+        const double ratio = table(row, right) / table(row, enter);
         for (Eigen::Index i = 0; i < n; ++i)
             if (basic[static_cast<std::size_t>(i)] == cover && table(i, enter) > least &&
-                table(i, right) / table(i, enter) <= table(row, right) / table(row, enter))
+                table(i, right) / table(i, enter) <= (1.0 + rounding) * ratio)
                 row = i;
         left = pivot(row, enter);
         if (result.pivots >= max_pivots || !table.allFinite()) {

@@ -40,7 +40,7 @@ inline std::vector<Watch> watches_of(const SmoothPhase& phase, const Acceleratio
 inline bool forces_exist(const AccelerationProblem& problem, const ModeSystem& forces,
                          const ContactModes& modes) {
     if (forces.admissible(problem, modes)) return true;
-    constexpr double same = 1e3;
+    constexpr double same = 1e-3;  // of accelerations that are zero but for rounding
     const std::optional<AccelerationSolution> other = solve_by_lemke(problem);
     return other && (other->acceleration - forces.acceleration).lpNorm<Eigen::Infinity>() <=
                         same * forces.acceleration_rounding(problem);
