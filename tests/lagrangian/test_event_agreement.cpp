@@ -4,6 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -55,38 +56,42 @@ double distance(const System& system, const Coordinates& q, const Coordinates& u
     }
     return sum / static_cast<double>(path.size());
 }
-/// The slope of log error over log h by least squares, over halvings from the first h.
+/// The slope of log error over log h by least squares. Whether a step ends before or after an event
+/// makes single errors irregular, so that there are many: of 4 to 128 steps in each part.
 template <class System, class Coordinates>
 void must_agree_in_first_order(const System& system, const Coordinates& q, const Coordinates& u,
                                double duration, std::size_t least_impacts, double constant) {
-    constexpr int parts = 64, halvings = 6;
+    constexpr int parts = 64;
     const auto path = by_events(system, q, u, duration, parts, least_impacts);
-    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, h = duration / (parts * 4);
-    for (int k = 0; k < halvings; ++k, h *= 0.5) {
+    double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, worst = 0.0;
+    for (const int steps :
+         {4, 5, 7, 9, 11, 13, 16, 19, 23, 27, 32, 38, 45, 54, 64, 76, 91, 108, 128}) {
+        const double h = duration / (parts * steps);
         const double error = distance(system, q, u, h, duration, path);
-        BOOST_TEST_MESSAGE("h = " << h << ": " << error << ", over h: " << error / h);
-        BOOST_TEST(error <= constant * h);
+        worst = std::max(worst, error / h);
         const double x = std::log(h), y = std::log(error);
+        n += 1.0;
         sx += x;
         sy += y;
         sxx += x * x;
         sxy += x * y;
     }
-    const double slope = (halvings * sxy - sx * sy) / (halvings * sxx - sx * sx);
-    BOOST_TEST_MESSAGE("slope " << slope);
-    BOOST_CHECK_SMALL(slope - 1.0, 0.2);  // irregular event times: that of the catalogue
+    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    BOOST_TEST_MESSAGE("slope " << slope << ", largest error over h " << worst);
+    BOOST_TEST(worst <= constant);
+    BOOST_CHECK_SMALL(slope - 1.0, 0.2);  // the catalogue's band for irregular event times
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_rod_thrown_on_the_floor_agrees_with_the_midpoint_method) {
     must_agree_in_first_order(PlanarBody::rod(0.3, 0.5), Three(0.0, 1.0, 0.6), Three(1.0, 0.0, 2.0),
-                              0.8, 2, 20.0);
+                              0.8, 2, 10.0);
 }
 
 BOOST_AUTO_TEST_CASE(a_double_pendulum_against_a_wall_agrees_with_the_midpoint_method) {
-    must_agree_in_first_order(DoublePendulum{.wall = 0.6, .law = {{0.3}, 0.5, 0.0}},
-                              Two(-0.8, -0.8), Two(0.0, 0.0), 2.5, 2, 40.0);
+    must_agree_in_first_order(DoublePendulum{.wall = 0.2, .law = {{0.3}, 0.5, 0.0}},
+                              Two(-0.8, -0.8), Two(0.0, 0.0), 2.5, 2, 10.0);
 }
 
 /// What the event-driven method reports as its limits the midpoint step goes through.
