@@ -13,7 +13,7 @@ export root jobs
 declare -A packages=(
     [library]="g++ cmake ninja-build libeigen3-dev"
     [examples]="libcli11-dev nlohmann-json3-dev libhdf5-dev"
-    [tests]="libboost-test-dev pkg-config python3"           # which build the examples too
+    [tests]="libboost-dev libboost-test-dev pkg-config python3" # which build the examples too
     [browser]="chromium chromium-driver"                     # for the page of the validation report
     [player]="python3 npm:three@0.170.0"                     # for movies of space; those of the plane need python3 alone
     [bench]="libbenchmark-dev libcli11-dev libhdf5-dev python3"

@@ -30,6 +30,7 @@ LAYERS = {
     "assembly": {"core", "spatial", "collision", "dynamics", "law", "problem"},
     "stepping": PHYSICS | ALGEBRA | {"assembly"},
     "lagrangian": {"core", "law", "problem", "solver/concepts", "solver/report", "solver/sweeps", "stepping/step_hooks"},
+    "lagrangian/event_driven": {"core", "law", "problem", "solver/concepts", "solver/report", "solver/sweeps", "lagrangian"},
     "feed": PHYSICS | {"law", "sample", "stepping/system"},
     "sample": {"core", "spatial", "geometry", "geometry/hull", "collision/gjk", "dynamics"},
     "measure": PHYSICS | {"law", "problem"},

@@ -6,7 +6,6 @@
 #include <talus/law/rolling_coulomb.hpp>
 #include <talus/linear/dense_solve.hpp>
 
-
 #include <cmath>
 #include <tuple>
 #include <vector>
