@@ -61,7 +61,9 @@ class BroadPhaseTester {
     Box box(const Vec& centre, const Vec& half) { return {centre - half, centre + half}; }
     Vec half_sides(double ratio) {
         const double size = random_.log_uniform(1.0 / ratio, 1.0);
-        return 0.5 * size * Vec::NullaryExpr([&] { return random_.uniform(0.5, 1.0); });
+        Vec half;
+        for (double& x : half) x = 0.5 * size * random_.uniform(0.5, 1.0);
+        return half;
     }
 
     void scattered(int n, double ratio, double far) {
