@@ -10,14 +10,21 @@
 
 namespace talus {
 
-/// Part of a SmallMatrix that may change: the value that it had when it was asked for, and
-/// assignments that reach the matrix. Component (i, j) is Inner i + Outer j places from the first.
-/// What would change the value alone does not compile: parts of a part are constant.
+/// Part of a SmallMatrix: the value that it had when it was asked for, and, as long as it has no
+/// name, a way to the matrix. `m.col(0) = v` and `m.diagonal() *= 2.0` change m; `auto v =
+/// m.col(0);` is a value, which m has no more to do with and which nothing can be assigned to. (A
+/// block of Eigen's with a name is a view.) Component (i, j) is Inner i + Outer j places from the
+/// first.
 template <int Rows, int Cols, class Real, int Inner, int Outer>
 class MatrixPart : public SmallMatrix<Rows, Cols, Real> {
   public:
     using Value = SmallMatrix<Rows, Cols, Real>;
     using Index = std::ptrdiff_t;
+    static constexpr int least = Rows < Cols ? Rows : Cols;
+    template <int N>
+    using Along = SmallMatrix<Cols == 1 ? N : 1, Cols == 1 ? 1 : N, Real>;
+    template <int N>
+    using PartAlong = MatrixPart<Cols == 1 ? N : 1, Cols == 1 ? 1 : N, Real, Inner, Outer>;
 
     explicit MatrixPart(Real* first) : first_(first) {
         for (int j = 0; j < Cols; ++j)
@@ -27,77 +34,112 @@ class MatrixPart : public SmallMatrix<Rows, Cols, Real> {
     MatrixPart(const MatrixPart&) = default;
     ~MatrixPart() = default;
 
-    // Of constant parts, since those that a matrix gives are: values, on which no more is to
-    // change.
-    const MatrixPart& operator=(const Value& x) const {
-        for (int j = 0; j < Cols; ++j)
-            for (int i = 0; i < Rows; ++i) first_[Inner * i + Outer * j] = x.data()[i + j * Rows];
-        return *this;
-    }
+    void operator=(const Value& x) const&& { put(x); }
     // NOLINTNEXTLINE(misc-unconventional-assign-operator)
-    const MatrixPart& operator=(const MatrixPart& x) const { return *this = x.now(); }
-    const MatrixPart& operator+=(const Value& x) const { return *this = now() + x; }
-    const MatrixPart& operator-=(const Value& x) const { return *this = now() - x; }
-    const MatrixPart& operator*=(Real s) const { return *this = now() * s; }
-    const MatrixPart& operator/=(Real s) const { return *this = now() / s; }
-    const MatrixPart& setZero() const { return *this = Value::Zero(); }
-    const MatrixPart& setOnes() const { return *this = Value::Ones(); }
-    const MatrixPart& setConstant(Real x) const { return *this = Value::Constant(x); }
-    const MatrixPart& setIdentity() const { return *this = Value::Identity(); }
-    void fill(Real x) const { setConstant(x); }
-    void normalize() const { *this = now().normalized(); }
-    const MatrixPart& noalias() const { return *this; }
+    void operator=(const MatrixPart& x) const&& { put(x); }
+    void operator+=(const Value& x) const&& { put(now() + x); }
+    void operator-=(const Value& x) const&& { put(now() - x); }
+    void operator*=(Real s) const&& { put(now() * s); }
+    void operator/=(Real s) const&& { put(now() / s); }
+    void setZero() const&& { put(Value::Zero()); }
+    void setOnes() const&& { put(Value::Ones()); }
+    void setConstant(Real x) const&& { put(Value::Constant(x)); }
+    void setIdentity() const&& { put(Value::Identity()); }
+    void fill(Real x) const&& { put(Value::Constant(x)); }
+    void normalize() const&& { put(now().normalized()); }
+    const MatrixPart&& noalias() const&& { return static_cast<const MatrixPart&&>(*this); }
     template <int I, int O>
-    void swap(const MatrixPart<Rows, Cols, Real, I, O>& o) const {
+    void swap(const MatrixPart<Rows, Cols, Real, I, O>&& o) const&& {
         const Value kept = now();
-        *this = o.now();
-        o = kept;
+        put(o.now());
+        static_cast<const MatrixPart<Rows, Cols, Real, I, O>&&>(o) = kept;
     }
     template <class X>
-    RowFiller<const MatrixPart> operator<<(const X& x) const {
+    RowFiller<const MatrixPart> operator<<(const X& x) const&& {
         return RowFiller<const MatrixPart>(*this, x);
     }
 
-    Real& operator[](Index i) const requires(Value::is_vector) { return (*this)(i); }
-    Real& operator()(Index i) const requires(Value::is_vector) {
-        return Cols == 1 ? (*this)(i, 0) : (*this)(0, i);
+    const Real& operator[](Index i) const& requires(Value::is_vector) {
+        return Value::operator[](i);
     }
-    Real& operator()(Index i, Index j) const {
-        assert(i >= 0 && i < Rows && j >= 0 && j < Cols);
-        return first_[Inner * i + Outer * j];
+    const Real& operator()(Index i) const& requires(Value::is_vector) {
+        return Value::operator()(i);
     }
-    /// The value that it has now.
+    const Real& operator()(Index i, Index j) const& { return Value::operator()(i, j); }
+    Real& operator[](Index i) const&& requires(Value::is_vector) { return at(i); }
+    Real& operator()(Index i) const&& requires(Value::is_vector) { return at(i); }
+    Real& operator()(Index i, Index j) const&& { return at(i, j); }
+    /// What the matrix has there now.
     Value now() const { return MatrixPart(first_); }
 
     const Real* data() const { return Value::data(); }
     template <int R, int C>
-    auto block(Index i, Index j) const {
+    const SmallMatrix<R, C, Real> block(Index i, Index j) const& {
         return Value::template block<R, C>(i, j);
     }
+    template <int R, int C>
+    const MatrixPart<R, C, Real, Inner, Outer> block(Index i, Index j) const&& {
+        assert(i >= 0 && i + R <= Rows && j >= 0 && j + C <= Cols);
+        return MatrixPart<R, C, Real, Inner, Outer>(first_ + Inner * i + Outer * j);
+    }
     template <int N>
-    auto segment(Index k) const {
+    const Along<N> segment(Index k) const& {
         return Value::template segment<N>(k);
     }
     template <int N>
-    auto head() const {
+    const PartAlong<N> segment(Index k) const&& {
+        assert(k >= 0 && k + N <= Value::Size);
+        return PartAlong<N>(first_ + k * (Cols == 1 ? Inner : Outer));
+    }
+    template <int N>
+    const Along<N> head() const& {
         return Value::template head<N>();
     }
     template <int N>
-    auto tail() const {
+    const PartAlong<N> head() const&& {
+        return PartAlong<N>(first_);
+    }
+    template <int N>
+    const Along<N> tail() const& {
         return Value::template tail<N>();
     }
-    auto row(Index i) const { return Value::row(i); }
-    auto col(Index j) const { return Value::col(j); }
-    auto diagonal() const { return Value::diagonal(); }
-    /// The components in the matrix, for Eigen: these may change.
-    auto eigen() const {
+    template <int N>
+    const PartAlong<N> tail() const&& {
+        return PartAlong<N>(first_ + (Value::Size - N) * (Cols == 1 ? Inner : Outer));
+    }
+    const SmallMatrix<1, Cols, Real> row(Index i) const& { return Value::row(i); }
+    const MatrixPart<1, Cols, Real, Inner, Outer> row(Index i) const&& {
+        return MatrixPart<1, Cols, Real, Inner, Outer>(first_ + Inner * i);
+    }
+    const SmallMatrix<Rows, 1, Real> col(Index j) const& { return Value::col(j); }
+    const MatrixPart<Rows, 1, Real, Inner, Outer> col(Index j) const&& {
+        return MatrixPart<Rows, 1, Real, Inner, Outer>(first_ + Outer * j);
+    }
+    const SmallMatrix<least, 1, Real> diagonal() const& { return Value::diagonal(); }
+    const MatrixPart<least, 1, Real, Inner + Outer, 0> diagonal() const&& {
+        return MatrixPart<least, 1, Real, Inner + Outer, 0>(first_);
+    }
+    /// For Eigen: the components in the matrix, which may change; of a part with a name its own.
+    auto eigen() const& { return Value::eigen(); }
+    auto eigen() const&& {
         constexpr bool is_row = Rows == 1 && Cols != 1;
         using Strides = Eigen::Stride<is_row ? Cols * Outer : Outer, is_row ? Outer : Inner>;
         return Eigen::Map<typename Value::OfEigen, 0, Strides>(first_);
     }
-    auto array() const { return eigen().array(); }
+    auto array() const& { return Value::eigen().array(); }
+    auto array() const&& { return static_cast<const MatrixPart&&>(*this).eigen().array(); }
 
   private:
+    void put(const Value& x) const {
+        for (int j = 0; j < Cols; ++j)
+            for (int i = 0; i < Rows; ++i) at(i, j) = x.data()[i + j * Rows];
+    }
+    Real& at(Index i) const { return Cols == 1 ? at(i, 0) : at(0, i); }
+    Real& at(Index i, Index j) const {
+        assert(i >= 0 && i < Rows && j >= 0 && j < Cols);
+        return first_[Inner * i + Outer * j];
+    }
+
     Real* first_;
 };
 
@@ -124,13 +166,13 @@ class RowFiller {
     void put(const X& x) {
         if constexpr (std::is_convertible_v<X, typename Matrix::Scalar>) {
             start(1, 1);
-            m_(row_, column_ - 1) = static_cast<typename Matrix::Scalar>(x);
+            entry(row_, column_ - 1) = static_cast<typename Matrix::Scalar>(x);
         } else {
             start(x.rows(), x.cols());
             const auto& values = x.eval();
             for (std::ptrdiff_t j = 0; j < values.cols(); ++j)
                 for (std::ptrdiff_t i = 0; i < values.rows(); ++i)
-                    m_(row_ + i, column_ - values.cols() + j) = values(i, j);
+                    entry(row_ + i, column_ - values.cols() + j) = values(i, j);
         }
     }
     /// Room for so many rows and columns, the last of which is before `column_`.
@@ -142,6 +184,11 @@ class RowFiller {
         height_ = rows;
         column_ += columns;
         assert(row_ + height_ <= m_.rows() && column_ <= m_.cols());
+    }
+
+    /// A part is one without a name, as it was where it was filled.
+    typename Matrix::Scalar& entry(std::ptrdiff_t i, std::ptrdiff_t j) const {
+        return static_cast<Matrix&&>(m_)(i, j);
     }
 
     Matrix& m_;
