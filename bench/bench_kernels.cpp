@@ -101,9 +101,11 @@ void local_solves(benchmark::State& state) {
     std::vector<talus::CoulombBlock<3>> blocks;
     std::vector<Vec> b;
     for (int k = 0; k < 1000; ++k) {
-        const talus::Matrix<3> g = talus::Matrix<3>::NullaryExpr([&] { return normal(random); });
+        talus::Matrix<3> g;
+        for (int i = 0; i < 9; ++i) g.data()[i] = normal(random);
         blocks.emplace_back(g * g.transpose() + talus::Matrix<3>::Identity());
-        b.push_back(Vec::NullaryExpr([&] { return normal(random); }));
+        b.emplace_back();
+        for (double& x : b.back()) x = normal(random);
     }
     for (auto _ : state)
         for (std::size_t k = 0; k < b.size(); ++k)
@@ -130,7 +132,8 @@ void broad_phase(benchmark::State& state) {
     const double side = std::cbrt(volume / 0.6);
     std::vector<talus::Aabb<3>> boxes;
     for (const double d : diameter) {
-        const Vec low = side * Vec::NullaryExpr([&] { return unit(random); });
+        Vec low;
+        for (double& x : low) x = side * unit(random);
         boxes.push_back({low, low + Vec::Constant(d)});
     }
     talus::HierarchicalGrid<3> grid;

@@ -48,9 +48,13 @@ class BenchProblem {
     }
     std::size_t contact_count() const { return free_velocity().size(); }
     std::span<const talus::Vector<Dim>> free_velocity() const {
-        return bodies_ ? bodies_->free_velocity : assembled_->free_velocity;
+        if (bodies_) return bodies_->free_velocity;
+        return assembled_->free_velocity;
     }
-    std::span<const Law<Dim>> laws() const { return bodies_ ? bodies_->laws : assembled_->laws; }
+    std::span<const Law<Dim>> laws() const {
+        if (bodies_) return bodies_->laws;
+        return assembled_->laws;
+    }
 
     /// Calls visit(w) with the operator: the product where bodies are known, else the matrix.
     template <class Visit>

@@ -2,6 +2,7 @@
 // Which side two boxes meet by, and when, against what can be told by hand.
 #include <talus/collision/passage.hpp>
 #include <talus/core/column.hpp>
+#include <talus/geometry/any_shape.hpp>
 #include <talus/geometry/box.hpp>
 
 #include <boost/test/unit_test.hpp>

@@ -134,8 +134,26 @@ BOOST_AUTO_TEST_CASE(arithmetic_is_eager) {
     BOOST_TEST((sum == V(2.0, 3.0, 4.0)));
 }
 
-/// Of a matrix that may change they reach the matrix, of a constant one and of a part they are
-/// values.
+/// What would look as if it changed the matrix.
+template <class Part>
+concept Changeable = requires(Part part) {
+    part = part.now();
+}
+|| requires(Part part) { part(0, 0) = 1.0; }
+|| requires(Part part) { part.setZero(); }
+|| requires(Part part) { part *= 2.0; }
+|| requires(Part part) { part.row(0) *= 2.0; };
+
+BOOST_AUTO_TEST_CASE(a_part_with_a_name_is_a_value) {
+    talus::Matrix<3> m = talus::Matrix<3>::Identity();
+    const auto part = m.bottomRightCorner<2, 2>();
+    static_assert(!Changeable<std::remove_const_t<decltype(part)>>);
+    m(1, 1) = 5.0;
+    BOOST_TEST((part(0, 0) == 1.0 && part.diagonal()[0] == 1.0 && part.sum() == 2.0));
+    BOOST_TEST((m.bottomRightCorner<2, 2>().sum() == 6.0));
+}
+
+/// Of a matrix that may change they reach the matrix, of a constant one they are values.
 BOOST_AUTO_TEST_CASE(parts_are_those_of_eigen_and_assignments_reach_the_matrix) {
     std::mt19937 rng(5);
     for (int k = 0; k < 20; ++k) {
@@ -155,6 +173,12 @@ BOOST_AUTO_TEST_CASE(parts_are_those_of_eigen_and_assignments_reach_the_matrix) 
         both([&](auto& a) { a.diagonal().array() += 2.0; });
         both([&](auto& a) { a.template bottomRightCorner<2, 2>().setIdentity(); });
         both([&](auto& a) { a.row(0).swap(a.row(4)); });
+        both([&](auto& a) { a.template bottomRightCorner<3, 3>().diagonal().array() += 0.5; });
+        both([&](auto& a) { a.template bottomRightCorner<3, 3>().row(1) *= 2.0; });
+        both([&](auto& a) { a.template topRightCorner<3, 2>().col(1).setConstant(0.25); });
+        both([&](auto& a) { a.template topRows<3>().template block<2, 2>(1, 1).setOnes(); });
+        both([&](auto& a) { a.col(2).template segment<2>(1) = a.col(4).template head<2>(); });
+        both([&](auto& a) { a.row(2).template tail<2>()[1] = 4.0; });
         both([&](auto& a) { a.template leftCols<2>() = a.template rightCols<2>().eval(); });
         both([&](auto& a) { a.row(1)[2] = 7.0; });
         both([&](auto& a) { a.row(2) << 1.0, 2.0, 3.0, 4.0, 5.0; });

@@ -50,9 +50,9 @@ std::vector<talus::Matrix<Dim>> random_d(RandomBlocks& random, std::size_t n, do
         const double size = random.log_uniform(1e-6, 1e3);
         const auto g = random.template normal<Dim - 1, Dim - 1>();
         x.setZero();
-        auto t = x.template bottomRightCorner<Dim - 1, Dim - 1>();
-        t = g * g.transpose();
+        Eigen::Matrix<double, Dim - 1, Dim - 1> t = g * g.transpose();
         t.diagonal().array() += 0.3;
+        x.template bottomRightCorner<Dim - 1, Dim - 1>() = t;
         x(0, 0) = random.log_uniform(0.1, 10.0);
         Eigen::Matrix<double, Dim - 1, 1> s = random.template normal<Dim - 1, 1>();
         s *= coupling * std::sqrt(4.0 * x(0, 0) / s.dot(t.inverse() * s));

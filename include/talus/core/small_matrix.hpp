@@ -50,6 +50,7 @@ class SmallMatrix : public Eigen::MatrixBase<SmallMatrix<Rows, Cols, Real>>,
         : data_{x, static_cast<Real>(more)...} {}
     /// Row by row, or the one row or column that a vector is.
     SmallMatrix(std::initializer_list<std::initializer_list<Real>> rows) {
+        each([&](int i) { at(i) = Real(0); });
         Index i = 0;
         for (const auto& row : rows) {
             Index j = 0;

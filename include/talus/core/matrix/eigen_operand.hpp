@@ -35,6 +35,8 @@ template <int OuterStride, int InnerStride>
 class Stride;
 template <class PlainObject, int Options, class Strides>
 class Map;
+template <class PlainObject, int Options, class Strides>
+class Ref;
 template <class Operation, class PlainObject>
 class CwiseNullaryOp;
 

@@ -47,7 +47,7 @@ class MatrixPart : public SmallMatrix<Rows, Cols, Real> {
     void setIdentity() const&& { put(Value::Identity()); }
     void fill(Real x) const&& { put(Value::Constant(x)); }
     void normalize() const&& { put(now().normalized()); }
-    const MatrixPart&& noalias() const&& { return static_cast<const MatrixPart&&>(*this); }
+    const MatrixPart&& noalias() const&& { return unnamed(); }
     template <int I, int O>
     void swap(const MatrixPart<Rows, Cols, Real, I, O>&& o) const&& {
         const Value kept = now();
@@ -119,6 +119,104 @@ class MatrixPart : public SmallMatrix<Rows, Cols, Real> {
     const MatrixPart<least, 1, Real, Inner + Outer, 0> diagonal() const&& {
         return MatrixPart<least, 1, Real, Inner + Outer, 0>(first_);
     }
+    template <int N>
+    decltype(auto) topRows() const& {
+        return this->template block<N, Cols>(0, 0);
+    }
+    template <int N>
+    decltype(auto) topRows() const&& {
+        return unnamed().template block<N, Cols>(0, 0);
+    }
+    template <int N>
+    decltype(auto) bottomRows() const& {
+        return this->template block<N, Cols>(Rows - N, 0);
+    }
+    template <int N>
+    decltype(auto) bottomRows() const&& {
+        return unnamed().template block<N, Cols>(Rows - N, 0);
+    }
+    template <int N>
+    decltype(auto) middleRows(Index i) const& {
+        return this->template block<N, Cols>(i, 0);
+    }
+    template <int N>
+    decltype(auto) middleRows(Index i) const&& {
+        return unnamed().template block<N, Cols>(i, 0);
+    }
+    template <int N>
+    decltype(auto) leftCols() const& {
+        return this->template block<Rows, N>(0, 0);
+    }
+    template <int N>
+    decltype(auto) leftCols() const&& {
+        return unnamed().template block<Rows, N>(0, 0);
+    }
+    template <int N>
+    decltype(auto) rightCols() const& {
+        return this->template block<Rows, N>(0, Cols - N);
+    }
+    template <int N>
+    decltype(auto) rightCols() const&& {
+        return unnamed().template block<Rows, N>(0, Cols - N);
+    }
+    template <int N>
+    decltype(auto) middleCols(Index j) const& {
+        return this->template block<Rows, N>(0, j);
+    }
+    template <int N>
+    decltype(auto) middleCols(Index j) const&& {
+        return unnamed().template block<Rows, N>(0, j);
+    }
+    template <int R, int C>
+    decltype(auto) topLeftCorner() const& {
+        return this->template block<R, C>(0, 0);
+    }
+    template <int R, int C>
+    decltype(auto) topLeftCorner() const&& {
+        return unnamed().template block<R, C>(0, 0);
+    }
+    template <int R, int C>
+    decltype(auto) topRightCorner() const& {
+        return this->template block<R, C>(0, Cols - C);
+    }
+    template <int R, int C>
+    decltype(auto) topRightCorner() const&& {
+        return unnamed().template block<R, C>(0, Cols - C);
+    }
+    template <int R, int C>
+    decltype(auto) bottomLeftCorner() const& {
+        return this->template block<R, C>(Rows - R, 0);
+    }
+    template <int R, int C>
+    decltype(auto) bottomLeftCorner() const&& {
+        return unnamed().template block<R, C>(Rows - R, 0);
+    }
+    template <int R, int C>
+    decltype(auto) bottomRightCorner() const& {
+        return this->template block<R, C>(Rows - R, Cols - C);
+    }
+    template <int R, int C>
+    decltype(auto) bottomRightCorner() const&& {
+        return unnamed().template block<R, C>(Rows - R, Cols - C);
+    }
+    void set_column(Index j, const SmallMatrix<Rows, 1, Real>& x) const&& { unnamed().col(j) = x; }
+    const Real& x() const& { return Value::x(); }
+    const Real& y() const& { return Value::y(); }
+    const Real& z() const& { return Value::z(); }
+    const Real& w() const& { return Value::w(); }
+    Real& x() const&& { return at(0); }
+    Real& y() const&& { return at(1); }
+    Real& z() const&& { return at(2); }
+    Real& w() const&& { return at(3); }
+    const Real& coeff(Index i) const { return Value::coeff(i); }
+    const Real& coeff(Index i, Index j) const { return Value::coeff(i, j); }
+    Real& coeffRef(Index i) const&& { return at(i); }
+    Real& coeffRef(Index i, Index j) const&& { return at(i, j); }
+    const Real* begin() const requires(Value::is_vector) { return Value::begin(); }
+    const Real* end() const requires(Value::is_vector) { return Value::end(); }
+    /// What Eigen would change behind a Ref would be the value alone: refused.
+    template <class T, int O, class S>
+    requires(!std::is_const_v<T>) operator Eigen::Ref<T, O, S>() const = delete;
     /// For Eigen: the components in the matrix, which may change; of a part with a name its own.
     auto eigen() const& { return Value::eigen(); }
     auto eigen() const&& {
@@ -127,9 +225,10 @@ class MatrixPart : public SmallMatrix<Rows, Cols, Real> {
         return Eigen::Map<typename Value::OfEigen, 0, Strides>(first_);
     }
     auto array() const& { return Value::eigen().array(); }
-    auto array() const&& { return static_cast<const MatrixPart&&>(*this).eigen().array(); }
+    auto array() const&& { return unnamed().eigen().array(); }
 
   private:
+    const MatrixPart&& unnamed() const { return static_cast<const MatrixPart&&>(*this); }
     void put(const Value& x) const {
         for (int j = 0; j < Cols; ++j)
             for (int i = 0; i < Rows; ++i) at(i, j) = x.data()[i + j * Rows];

@@ -85,11 +85,11 @@ requires SpaceDimension<Dim> CentralPair<Dim> central_pair(const Vector<Dim>& x,
     }
     // -du_t / dr_t = lambda 1 + (dlambda/dr_t) r_t^T, lambda = eps / room: a wall along r_t that
     // rises as r_t nears the edge. The coupling to r_n, by the radius, is its lower-left part.
-    auto block = p.d.template bottomRightCorner<Dim - 1, Dim - 1>();
     const double wall =
         2.0 * lambda / room * std::min(1.0, stiff * room / (2.0 * lambda * reach * reach + 1e-300));
-    block = wall * r_t * r_t.transpose();
-    block.diagonal().array() += std::min(lambda, stiff);
+    SmallMatrix<Dim - 1, Dim - 1> block = wall * r_t * r_t.transpose();
+    for (int k = 0; k < Dim - 1; ++k) block(k, k) += std::min(lambda, stiff);
+    p.d.template bottomRightCorner<Dim - 1, Dim - 1>() = block;
     p.d.template bottomLeftCorner<Dim - 1, 1>() = -(wall * radius * mu) * r_t;
     return p;
 }

@@ -224,12 +224,12 @@ template <int Dim>
 bool KrylovConeSolver<Dim>::temper(Small& d) {
     // With the symmetric part positive definite, incomplete factors exist in practice. Needed:
     // s^T T^-1 s <= 4 a.
-    auto s = d.template bottomLeftCorner<Dim - 1, 1>();
+    const Eigen::Matrix<double, Dim - 1, 1> s = d.template bottomLeftCorner<Dim - 1, 1>();
     const Eigen::Matrix<double, Dim - 1, Dim - 1> t =
         d.template bottomRightCorner<Dim - 1, Dim - 1>();
     const double square = s.dot(t.inverse() * s);
     if (!(square > 4.0 * d(0, 0))) return false;
-    s *= std::sqrt(4.0 * d(0, 0) / square);
+    d.template bottomLeftCorner<Dim - 1, 1>() *= std::sqrt(4.0 * d(0, 0) / square);
     return true;
 }
 

@@ -199,8 +199,7 @@ void ProximalNewton<Dim, Law>::differentiate_sharp() {
         if (x[0] > 0.0) {
             a(0, 0) = 0.0;
             b(0, 0) = rho();
-            auto a_t = a.template bottomRightCorner<Dim - 1, Dim - 1>();
-            auto b_t = b.template bottomRightCorner<Dim - 1, Dim - 1>();
+            TangentMatrix a_t = TangentMatrix::Identity(), b_t = soft * TangentMatrix::Identity();
             if (length < radius) {
                 a_t.setZero();
                 b_t = rho() * TangentMatrix::Identity();
@@ -213,6 +212,8 @@ void ProximalNewton<Dim, Law>::differentiate_sharp() {
                 a.template bottomLeftCorner<Dim - 1, 1>() = -mu * e;
                 b.template bottomLeftCorner<Dim - 1, 1>() = rho() * mu * e;
             }
+            a.template bottomRightCorner<Dim - 1, Dim - 1>() = a_t;
+            b.template bottomRightCorner<Dim - 1, Dim - 1>() = b_t;
         }
         const Matrix<Dim> inverse = b.inverse();
         d_[c] = inverse * a;
