@@ -100,7 +100,7 @@ struct Eigen::EigenBase<talus::SmallMatrix<Rows, Cols, Real>> {
     const Derived& const_derived() const { return derived(); }
     static constexpr Index rows() { return Rows; }
     static constexpr Index cols() { return Cols; }
-    static constexpr Index size() { return Rows * Cols; }
+    static constexpr Index size() { return Index{Rows} * Cols; }
 };
 
 template <int Rows, int Cols, class Real>

@@ -10,6 +10,9 @@
 
 namespace talus {
 
+// Results are constant so that what would be lost does not compile.
+// NOLINTBEGIN(readability-const-return-type,bugprone-branch-clone,bugprone-unhandled-self-assignment)
+
 /// Part of a SmallMatrix: the value that it had when it was asked for, and, as long as it has no
 /// name, a way to the matrix. `m.col(0) = v` and `m.diagonal() *= 2.0` change m; `auto v =
 /// m.col(0);` is a value, which m has no more to do with and which nothing can be assigned to. (A
@@ -241,6 +244,8 @@ class MatrixPart : public SmallMatrix<Rows, Cols, Real> {
 
     Real* first_;
 };
+
+// NOLINTEND(readability-const-return-type,bugprone-branch-clone,bugprone-unhandled-self-assignment)
 
 /// What follows `m <<`: fills a matrix row by row, with numbers and with matrices side by side.
 template <class Matrix>

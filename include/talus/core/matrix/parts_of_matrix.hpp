@@ -10,6 +10,8 @@ class SmallMatrix;
 template <int Rows, int Cols, class Real, int Inner, int Outer>
 class MatrixPart;
 
+// NOLINTBEGIN(readability-const-return-type,bugprone-branch-clone)
+
 /// The parts of a SmallMatrix, by Eigen's names. Those of one that may change are MatrixParts:
 /// values, assignments to which reach the matrix. Those of a constant one are the values.
 template <int Rows, int Cols, class Real>
@@ -174,5 +176,7 @@ class PartsOfMatrix {
     Self& self() { return *static_cast<Self*>(this); }
     const Self& self() const { return *static_cast<const Self*>(this); }
 };
+
+// NOLINTEND(readability-const-return-type,bugprone-branch-clone)
 
 }  // namespace talus
